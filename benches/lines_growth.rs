@@ -13,7 +13,7 @@ mod growth;
 #[path = "report/mod.rs"]
 mod report;
 
-use families::{FAMILIES, Family, Seen};
+use families::{FAMILIES, Family, FamilyView};
 use growth::{Curve, plot};
 use report::write_record;
 use serde_json::{Value, json};
@@ -93,8 +93,8 @@ fn measured(family: &Family, size: usize, settings: &Settings) -> Option<(Value,
         ..Mesh::triangle()
     };
     let camera = match family.seen {
-        Seen::Aslant => CameraSettings::default(),
-        Seen::Along => {
+        FamilyView::Aslant => CameraSettings::default(),
+        FamilyView::Along => {
             CameraSettings { view: "front".parse().expect("a view"), parallel: true, ..CameraSettings::default() }
         }
     };

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 use tinta::edges::Class;
-use tinta::lines::{Hidden, Length, svg};
+use tinta::lines::{HiddenLines, Length, svg};
 use tinta::{DrawingSettings, LineSettings, LoadOptions, Scene, SceneSettings, TextTarget, VisibleLines, load};
 
 fn main() -> tinta::Result<()> {
@@ -25,7 +25,7 @@ pub fn draw(model: &str, output: &str) -> tinta::Result<(usize, usize)> {
     let creases = lines.segments.iter().filter(|segment| segment.class == Class::Crease).count();
     let settings = DrawingSettings {
         title: format!("{model}, {creases} pieces of creases"),
-        hidden: Hidden::Dashed,
+        hidden: HiddenLines::Dashed,
         line_width: Some(Length::Px(1.5)),
         ..DrawingSettings::default()
     };

@@ -113,12 +113,12 @@ pub struct AnimationWriter {
     frames: u32,
     added: u32,
     pictures: Option<SyncSender<Picture>>,
-    worker: Option<JoinHandle<Result<Written>>>,
+    worker: Option<JoinHandle<Result<AnimationCost>>>,
 }
 
 /// The finished animation's numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Written {
+pub struct AnimationCost {
     /// Time to encode each picture, milliseconds, on a separate thread during the drawing.
     pub encode_ms: Vec<f64>,
     /// Size of the file, or of all numbered ones together.
@@ -170,11 +170,11 @@ impl AnimationWriter {
     /// # Errors
     ///
     /// [`Error::File`] when pictures are missing, cannot be encoded or cannot be written.
-    pub fn finish(mut self) -> Result<Written> {
+    pub fn finish(mut self) -> Result<AnimationCost> {
         self.join()
     }
 
-    fn join(&mut self) -> Result<Written> {
+    fn join(&mut self) -> Result<AnimationCost> {
         self.pictures = None;
         match self.worker.take().map(JoinHandle::join) {
             Some(Ok(written)) => written,
@@ -237,7 +237,7 @@ impl Encoder {
 }
 
 /// The encoder's thread: it writes the file only after all pictures have come.
-fn write(target: &AnimationTarget, pictures: &Receiver<Picture>, frames: u32, delay_ms: u16) -> Result<Written> {
+fn write(target: &AnimationTarget, pictures: &Receiver<Picture>, frames: u32, delay_ms: u16) -> Result<AnimationCost> {
     let mut encode_ms = Vec::new();
     let mut encoder: Option<(Size, Encoder)> = None;
     for picture in pictures.iter().take(frames as usize) {
@@ -258,7 +258,7 @@ fn write(target: &AnimationTarget, pictures: &Receiver<Picture>, frames: u32, de
     }
     match encoder {
         Some((_, encoder)) if encode_ms.len() == frames as usize => {
-            Ok(Written { encode_ms, bytes: encoder.finish(target)? })
+            Ok(AnimationCost { encode_ms, bytes: encoder.finish(target)? })
         }
         _ => Err(target.error(format!("only {} of {frames} pictures came; it was not written", encode_ms.len()))),
     }

@@ -4,7 +4,7 @@ use crate::choice::nearest;
 use crate::error::{Error, Result};
 use glam::DVec3;
 use tinta_geometry::lines::closed_forms::{ClosedForm, Patch};
-use tinta_geometry::mesh::{LoadOptions, LoadStage, Loaded, read_bytes};
+use tinta_geometry::mesh::{LoadOptions, LoadStage, LoadedModel, read_bytes};
 
 /// A built-in model.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +40,7 @@ impl Builtin {
 
 /// A built-in model by the name a user gives: `builtin:NAME`, or `builtin:NAME:TRIANGLES` for a surface.
 #[derive(Debug, Clone, Copy)]
-pub struct Named {
+pub struct NamedBuiltin {
     /// The model.
     pub builtin: Builtin,
     /// The approximate number of triangles, for a surface.
@@ -132,7 +132,7 @@ pub static BUILTINS: [Builtin; 13] = [
 /// # Errors
 ///
 /// [`Error::File`] for an unknown model, or an impossible number of triangles.
-pub fn builtin(name: &str) -> Option<Result<Named>> {
+pub fn builtin(name: &str) -> Option<Result<NamedBuiltin>> {
     let short = name.strip_prefix("builtin:")?;
     let (short, count) = short.split_once(':').map_or((short, None), |(short, count)| (short, Some(count)));
     let found = BUILTINS.into_iter().find(|builtin| builtin.name == short);
@@ -150,7 +150,7 @@ pub fn builtin(name: &str) -> Option<Result<Named>> {
         (Source::File(..), _) if count.is_some() => {
             Err(Error::model(name, format!("this model has one number of triangles; write builtin:{short}")))
         }
-        (_, Some(triangles)) => Ok(Named { builtin, triangles }),
+        (_, Some(triangles)) => Ok(NamedBuiltin { builtin, triangles }),
         (_, None) => Err(Error::model(
             name,
             format!("a surface is made of {least} to {most} triangles; write for example builtin:{short}:{TRIANGLES}"),
@@ -163,7 +163,7 @@ pub fn builtin(name: &str) -> Option<Result<Named>> {
 /// # Errors
 ///
 /// [`Error::File`] when there is no such built-in model; those of [`tinta_geometry::load()`].
-pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
+pub fn load(path: &str, options: &LoadOptions) -> Result<LoadedModel> {
     load_watched(path, options, &|_| {})
 }
 
@@ -172,7 +172,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 /// # Errors
 ///
 /// Those of [`load`].
-pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
+pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<LoadedModel> {
     match builtin(path) {
         Some(model) => {
             let model = model?;
@@ -181,7 +181,13 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
                 Source::File(file, beside) => read_bytes(file, path, beside, options),
                 Source::Surface(form) => {
                     let mesh = form.mesh_with(model.triangles, 0.0, options)?;
-                    Ok(Loaded { mesh, frames: Vec::new(), files: Vec::new(), remarks: Vec::new(), stages: Vec::new() })
+                    Ok(LoadedModel {
+                        mesh,
+                        frames: Vec::new(),
+                        files: Vec::new(),
+                        remarks: Vec::new(),
+                        stages: Vec::new(),
+                    })
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Whether a driver draws as the ones that tinta was made with: `tinta info --check`.
 //!
-//! Takes a backend and returns a [`Checked`] for each of its contexts: pictures of small scenes in every style beside reference
+//! Takes a backend and returns a [`DriverCheck`] for each of its contexts: pictures of small scenes in every style beside reference
 //! pictures, which are part of the program; answers to questions that the styles rest on; the known faults of such a driver.
 //! docs/dev/testing.md has the measurements.
 //!
@@ -58,18 +58,18 @@ const REFERENCES: [(StyleName, &[u8]); 10] = [
 
 /// One backend, and its driver's drawings.
 #[derive(Debug, Clone, Serialize)]
-pub struct Checked {
+pub struct DriverCheck {
     /// The library, and the device if there are several.
     pub device: String,
     /// The check's findings, if a context opened.
-    pub found: Option<Found>,
+    pub found: Option<DriverFindings>,
     /// The reason why no context opened.
     pub error: Option<String>,
 }
 
 /// The pictures and answers of a context.
 #[derive(Debug, Clone, Serialize)]
-pub struct Found {
+pub struct DriverFindings {
     /// The context's own description.
     pub context: ContextInfo,
     /// Its picture of each style, beside the reference.
@@ -99,7 +99,7 @@ pub struct StyleCheck {
     pub problem: Option<String>,
 }
 
-impl Found {
+impl DriverFindings {
     /// Whether every style and every answer is as it should be.
     pub fn is_good(&self) -> bool {
         self.not_probed.is_none()
@@ -109,7 +109,7 @@ impl Found {
 }
 
 /// Checks every way of this backend, one after the other.
-pub fn check(backend: Backend) -> Vec<Checked> {
+pub fn check(backend: Backend) -> Vec<DriverCheck> {
     let found = |mut renderer: Renderer| {
         let context = renderer.context().clone();
         let styles = REFERENCES.map(|(style, reference)| StyleCheck::of(&mut renderer, style, reference)).to_vec();
@@ -118,11 +118,11 @@ pub fn check(backend: Backend) -> Vec<Checked> {
             Ok(probes) => (probes, None),
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
-        Found { context, styles, probes, not_probed, known_faults }
+        DriverFindings { context, styles, probes, not_probed, known_faults }
     };
     let checked = |(device, opened): (String, std::result::Result<Context, String>)| match opened {
-        Ok(context) => Checked { device, found: Some(found(Renderer::of(context))), error: None },
-        Err(error) => Checked { device, found: None, error: Some(error) },
+        Ok(context) => DriverCheck { device, found: Some(found(Renderer::of(context))), error: None },
+        Err(error) => DriverCheck { device, found: None, error: Some(error) },
     };
     each(backend).map(checked).collect()
 }
@@ -189,7 +189,7 @@ mod tests {
             panic!("the references were drawn anew: look at them, then run without TINTA_UPDATE_GOLDENS");
         }
         let checked = check(Backend::Auto);
-        let found: Vec<&Found> = checked.iter().filter_map(|checked| checked.found.as_ref()).collect();
+        let found: Vec<&DriverFindings> = checked.iter().filter_map(|checked| checked.found.as_ref()).collect();
         assert!(!found.is_empty());
         found.iter().for_each(|found| assert!(found.is_good(), "{found:#?}"));
     }

@@ -128,12 +128,12 @@ fn is_device(path: &Path) -> bool {
 
 /// A file's new contents, complete on the disk, without a name or under a temporary one that is removed with this.
 #[derive(Debug)]
-pub struct Staged {
+pub struct StagedContents {
     path: PathBuf,
     temporary: StagedFile,
 }
 
-impl Staged {
+impl StagedContents {
     /// Writes the contents to a temporary file beside `path`, which stays unchanged.
     ///
     /// # Errors
@@ -168,7 +168,7 @@ impl Staged {
 
 /// Writes a complete file, or leaves the existing one unchanged.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    Staged::new(path, bytes)?.put_in_place()
+    StagedContents::new(path, bytes)?.put_in_place()
 }
 
 fn refused(path: &Path, error: &std::io::Error) -> Error {

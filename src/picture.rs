@@ -26,7 +26,7 @@ mod small;
 pub use materials::{MaterialPictures, material_pictures};
 
 use crate::error::{Error, Result};
-use crate::output::{Staged, check_file, check_name, write_standard_output, write_whole};
+use crate::output::{StagedContents, check_file, check_name, write_standard_output, write_whole};
 use crate::values::Size;
 #[cfg(feature = "gltf")]
 use image::codecs::jpeg::JpegEncoder;
@@ -337,11 +337,11 @@ impl Target {
             match target {
                 Self::Stdout => target.write(picture)?,
                 Self::File { path, format } => {
-                    staged.push(Staged::new(path, &encoded(path, |out| picture.encode(*format, false, out))?)?);
+                    staged.push(StagedContents::new(path, &encoded(path, |out| picture.encode(*format, false, out))?)?);
                 }
             }
         }
-        staged.into_iter().try_for_each(Staged::put_in_place)
+        staged.into_iter().try_for_each(StagedContents::put_in_place)
     }
 }
 

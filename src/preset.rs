@@ -20,7 +20,7 @@ mod shipped;
 
 use crate::settings::rule_text;
 pub use crate::settings::{OptionValue, Options};
-pub use looks::{LOOKS, Look, Named};
+pub use looks::{LOOKS, Look, StyleOrLook};
 pub use shipped::SHIPPED;
 
 use crate::choice::nearest;

@@ -20,7 +20,7 @@ pub use regions::regions_json;
 use crate::gl::ContextInfo;
 use crate::mesh::{Defects, LoadOptions, Mesh};
 use crate::plan::Submission;
-use crate::plan::prune::{Kept, Omission};
+use crate::plan::prune::{IdleRule, Omission};
 use crate::renderer::{PassTime, median};
 use crate::scene::{Background, Color, Size};
 use crate::styles::{Show, Style};
@@ -58,13 +58,13 @@ pub struct Record {
     pub load_ms: f64,
     /// How it was made.
     #[serde(flatten)]
-    pub made: Made,
+    pub made: DrawingFacts,
 }
 
 /// The settings and times of a drawing.
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
-pub enum Made {
+pub enum DrawingFacts {
     /// In passes, by OpenGL.
     Picture(Box<PictureMade>),
     /// As exact lines.
@@ -90,7 +90,7 @@ pub struct PictureMade {
     /// The parts of the published plan that were left out, with reasons.
     pub omissions: Vec<Omission>,
     /// The rules that left everything in, with reasons.
-    pub kept: Vec<Kept>,
+    pub kept: Vec<IdleRule>,
     /// Time to make the plan; for the style inking it covers edge list, classes, silhouettes and light.
     pub plan_ms: f64,
     /// Time to open the context, on a separate thread during the loading.

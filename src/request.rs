@@ -33,7 +33,7 @@ pub use around::{Around, LINES_AT_ONCE_MS};
 pub use draw::{DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
-pub use format::Wanted;
+pub use format::WantedLines;
 #[cfg(feature = "cli")]
 pub(crate) use format::{endings_of_lines, is_drawn_into};
 #[cfg(feature = "cli")]

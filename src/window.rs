@@ -35,7 +35,7 @@ pub use replay::Replay;
 pub use threads::cost::{Costs, Point, SideCost};
 pub use threads::draw::Drawer;
 pub use threads::exact::ExactLines;
-pub use threads::job::{Drawing, Found, Job, Lines};
+pub use threads::job::{Drawing, FoundLines, Job, Lines};
 pub use threads::line_measure::{Darkness, DrawInk, LineMeasure, LineScore, ScoreInk};
 pub use threads::report::Stage;
 pub use threads::viewer::{Viewer, ViewerOptions};

@@ -5,7 +5,7 @@
 //! through the same function with an ordinary compiler.
 
 use tinta::batch::{Job, List, Slice, add_entries, place_in};
-use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
+use tinta::mesh::{LoadOptions, LoadedModel, VertexArrays, read_bytes};
 use tinta::settings::OptionValue;
 use tinta::{EdgeList, Picture, Preset, Recipe, Result, Scene, SceneSettings};
 
@@ -58,7 +58,7 @@ pub fn three_mf(bytes: &[u8]) {
 /// A glTF model, JSON or GLB; its pictures are no longer than the file.
 pub fn gltf(bytes: &[u8]) {
     let loaded = read_bytes(bytes, "fuzz.gltf", &[], &LoadOptions::default());
-    if let Ok(Loaded { mesh, .. }) = &loaded {
+    if let Ok(LoadedModel { mesh, .. }) = &loaded {
         let pictures = mesh.materials.iter().filter_map(|material| material.embedded.as_ref());
         pictures.for_each(|picture| assert!(picture.bytes.len() <= bytes.len()));
     }
@@ -82,7 +82,7 @@ fn model_of(bytes: &[u8], materials: &[u8], name: &str) {
 }
 
 /// A model is sound down to its drawing, and reports its faults in single lines.
-fn check_model(loaded: Result<Loaded>) {
+fn check_model(loaded: Result<LoadedModel>) {
     /// Larger meshes are not made into scenes: the reader is under test.
     const TRIANGLES: usize = 2000;
     let loaded = match loaded {

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 use tinta::lines::DrawingFormat;
 use tinta::mesh::read_bytes;
-use tinta::request::{DrawingFile, Request, Wanted, layers};
+use tinta::request::{DrawingFile, Request, WantedLines, layers};
 use tinta::settings::{OptionValue, Options};
 use tinta::{Result, Scene};
 
@@ -44,7 +44,7 @@ pub fn drawing(bytes: &[u8]) {
 
 fn svg(bytes: &[u8], options: &[(&str, &str)]) -> Result<String> {
     let (request, scene) = scene(bytes, options)?;
-    let drawn = request.still(scene, true)?.drawn_lines(Wanted::default(), &Default::default())?;
+    let drawn = request.still(scene, true)?.drawn_lines(WantedLines::default(), &Default::default())?;
     let svg = drawn.written(DrawingFormat::SVG, None, None).and_then(DrawingFile::bytes)?;
     Ok(String::from_utf8_lossy(&svg).into_owned())
 }

@@ -3,7 +3,7 @@
 use crate::errors::{raised, wrong};
 use crate::mesh::{Mesh, drawable};
 use crate::picture::{named, words};
-use crate::request::{Asked, Basis};
+use crate::request::{Basis, FunctionRequest};
 use crate::settings::options;
 use crate::studio::drawn;
 use crate::work::done;
@@ -46,7 +46,8 @@ pub(crate) fn measure<'py>(
         }
         false => asked.iter().map(setting).collect::<PyResult<_>>()?,
     };
-    let asked = Asked::new("measure", &meshes, given, &Basis { style: Some("three-pass"), ..Basis::default() })?;
+    let asked =
+        FunctionRequest::new("measure", &meshes, given, &Basis { style: Some("three-pass"), ..Basis::default() })?;
     let scene = drawable(py, meshes, &asked.request)?.scene;
     let subject = done(py, || (), move || Subject::new(&asked.request.title(), scene, 0.0))?;
     let rows = drawn(py, backend, move |renderer| {
@@ -112,8 +113,8 @@ pub(crate) fn compare<'py>(
 ) -> PyResult<(Bound<'py, PyDict>, Vec<Bound<'py, PyAny>>)> {
     let backend: Backend = named("backend", backend)?;
     let tolerance = share(tolerance)?;
-    let Asked { request, .. } =
-        Asked::new("compare", &meshes, given, &Basis { style: Some(left), ..Basis::default() })?;
+    let FunctionRequest { request, .. } =
+        FunctionRequest::new("compare", &meshes, given, &Basis { style: Some(left), ..Basis::default() })?;
     let style = |argument: &str, name: &str| -> PyResult<Style> {
         let of_name = name.parse().map_err(|ParseError(problem)| raised(Error::value("style", name, problem)))?;
         let style = request.in_style(of_name).map_err(raised)?.style;

@@ -3,7 +3,7 @@
 use crate::arrays::{pairs, points, shaped};
 use crate::errors::raised;
 use crate::mesh::{Mesh, resolved};
-use crate::request::{Asked, Basis};
+use crate::request::{Basis, FunctionRequest};
 use crate::settings::options;
 use crate::warnings::warn;
 use crate::work::done;
@@ -13,7 +13,7 @@ use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::glam::DVec3;
 use tinta::lines::{DrawingContent, DrawingFormat, GHOST_OPACITY, LineSegment, Progress, Sight, drawn_layers};
-use tinta::request::{DrawnLines, Resolved, Wanted};
+use tinta::request::{DrawnLines, Resolved, WantedLines};
 use tinta::styles::Below;
 use tinta::{Error, Result, VisibleLines};
 
@@ -22,7 +22,7 @@ use tinta::{Error, Result, VisibleLines};
 pub(crate) struct Lines {
     pub(crate) lines: Arc<VisibleLines>,
     pub drawn: Arc<Resolved>,
-    pub asked: Asked,
+    pub asked: FunctionRequest,
     /// The drawing with all pieces, hidden ones and outlines too, on first access.
     all: OnceLock<Arc<DrawnLines>>,
 }
@@ -37,7 +37,7 @@ pub(crate) fn lines(
     look: Option<&str>,
     preset: Option<&str>,
 ) -> PyResult<Lines> {
-    let asked = Asked::new("lines", &meshes, given, &Basis { look, preset, ..Basis::default() })?;
+    let asked = FunctionRequest::new("lines", &meshes, given, &Basis { look, preset, ..Basis::default() })?;
     let progress = Arc::new(Progress::default());
     let (watched, request) = (progress.clone(), asked.request.clone());
     let (lines, drawn) = done(
@@ -45,7 +45,7 @@ pub(crate) fn lines(
         || progress.cancel(),
         move || {
             let drawn = resolved(&meshes, &request, true)?;
-            let lines = drawn.all_lines(&Sight::of(&drawn.scene), Wanted::default(), &watched)?;
+            let lines = drawn.all_lines(&Sight::of(&drawn.scene), WantedLines::default(), &watched)?;
             Ok((lines, drawn))
         },
     )?;
@@ -71,7 +71,7 @@ impl Lines {
         if let Some(all) = self.all.get() {
             return Ok(all.clone());
         }
-        let wanted = Wanted::of(format_named("json"), false);
+        let wanted = WantedLines::of(format_named("json"), false);
         let all = self.with_lines(py, (*self.drawn).clone(), wanted, move |drawn, lines, progress| {
             drawn.drawing(&Sight::of(&drawn.scene), lines, wanted, progress).map(Arc::new)
         })?;
@@ -84,7 +84,7 @@ impl Lines {
         &self,
         py: Python<'_>,
         drawn: Resolved,
-        wanted: Wanted,
+        wanted: WantedLines,
         work: impl FnOnce(Resolved, Arc<VisibleLines>, &Progress) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
         let (lines, serves) = (self.lines.clone(), self.drawn.contents.finds_all_for(&drawn.contents, wanted));
@@ -114,7 +114,7 @@ impl Lines {
         format: DrawingFormat,
         put: impl FnOnce(&mut DrawnLines) -> Result<()> + Send + 'static,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let (asked, wanted) = (self.asked.clone(), Wanted::of(format, false));
+        let (asked, wanted) = (self.asked.clone(), WantedLines::of(format, false));
         let bytes = self.with_lines(py, self.drawn_with(given, title)?, wanted, move |drawn, lines, progress| {
             let mut drawn = drawn.drawing(&Sight::of(&drawn.scene), lines, wanted, progress)?;
             put(&mut drawn)?;
@@ -208,9 +208,10 @@ impl Lines {
 
     /// The drawing as plain values: its layers from the lowest to the highest.
     fn layers<'py>(&self, py: Python<'py>, given: &Bound<'py, PyDict>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let layers = self.with_lines(py, self.drawn_with(given, None)?, Wanted::default(), |drawn, lines, _| {
-            drawn_layers(&lines, &drawn.contents.drawing)
-        })?;
+        let layers =
+            self.with_lines(py, self.drawn_with(given, None)?, WantedLines::default(), |drawn, lines, _| {
+                drawn_layers(&lines, &drawn.contents.drawing)
+            })?;
         let described = |drawn: tinta::lines::DrawnLayer| -> PyResult<Bound<'py, PyDict>> {
             let layer = PyDict::new(py);
             let [visibility, name] = drawn.layer.words();

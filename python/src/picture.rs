@@ -3,7 +3,7 @@
 use crate::arrays::shaped;
 use crate::errors::{python_name, raised, wrong};
 use crate::mesh::{Mesh, drawable};
-use crate::request::{Asked, Basis};
+use crate::request::{Basis, FunctionRequest};
 use crate::studio::drawn;
 use crate::warnings::warn;
 use crate::work::done;
@@ -42,7 +42,7 @@ pub(crate) fn render(
     show: Option<&str>,
     backend: Option<&str>,
 ) -> PyResult<Picture> {
-    let asked = Asked::new("render", &meshes, given, &Basis { style, look, preset, show, backend })?;
+    let asked = FunctionRequest::new("render", &meshes, given, &Basis { style, look, preset, show, backend })?;
     warn(py, &ignored(given, asked.request.style.name())?)?;
     let resolved = drawable(py, meshes, &asked.request)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 use std::sync::Arc;
 use tinta::choice::Choice;
-use tinta::lines::{Areas, Joined, Progress, Sight, Surface, painted};
+use tinta::lines::{Areas, JoinKey, Progress, Sight, Surface, painted};
 use tinta::record::regions_json;
 use tinta::request::Resolved;
 use tinta::styles::{Contents, LineStyle, ViewAreas};
@@ -26,7 +26,7 @@ pub(crate) struct Regions {
     pub(crate) is_alone: bool,
 }
 
-/// The contents of a drawing with areas: `by` is a name of [`Joined`], or `tone` for those of a style.
+/// The contents of a drawing with areas: `by` is a name of [`JoinKey`], or `tone` for those of a style.
 fn vectors(
     by: &str,
     given: &Bound<'_, PyDict>,
@@ -46,8 +46,8 @@ fn vectors(
                 "only areas of tone have this; give by=\"tone\", or leave it out",
             )));
         }
-        let joined = Joined::NAMED.iter().find(|(name, _)| *name == by).map(|(_, joined)| *joined);
-        let names: Vec<&str> = Joined::NAMED.iter().map(|(name, _)| *name).chain(["tone"]).collect();
+        let joined = JoinKey::NAMED.iter().find(|(name, _)| *name == by).map(|(_, joined)| *joined);
+        let names: Vec<&str> = JoinKey::NAMED.iter().map(|(name, _)| *name).chain(["tone"]).collect();
         let problem = format!("choose one of {}", names.join(", "));
         let joined = joined.ok_or_else(|| raised(Error::value("by", by, problem)))?;
         Style::Lines(LineStyle { areas: Some(joined), is_of_areas_alone: is_alone, ..LineStyle::default() })

@@ -16,7 +16,7 @@ use tinta::{Error, ParseError, Preset, Request, Result};
 
 /// The function and its request.
 #[derive(Debug, Clone)]
-pub(crate) struct Asked {
+pub(crate) struct FunctionRequest {
     pub request: Request,
     /// Paths of the models; `None` if one has no file.
     models: Option<Vec<String>>,
@@ -34,7 +34,7 @@ pub(crate) struct Basis<'a> {
     pub backend: Option<&'a str>,
 }
 
-impl Asked {
+impl FunctionRequest {
     /// Reads the arguments of a function.
     pub(crate) fn new(
         function: &str,

@@ -17,7 +17,7 @@ use tinta::{Backend, Error, LineSettings, LoadOptions, Request, SceneSettings, S
 
 /// The settings of a drawing that a function takes.
 #[derive(Clone, Copy)]
-struct Taken {
+struct FunctionSettings {
     /// The style of its settings; `None` for all OpenGL styles.
     style: Option<StyleName>,
     of_style: fn(&str) -> bool,
@@ -26,23 +26,24 @@ struct Taken {
 }
 
 /// Python functions by their settings, with their names in help.
-const FUNCTIONS: [(&str, Taken); 9] = {
-    const ALL: Taken = Taken { style: None, of_style: |_| true, has_scene: true, has_reading: true };
+const FUNCTIONS: [(&str, FunctionSettings); 9] = {
+    const ALL: FunctionSettings =
+        FunctionSettings { style: None, of_style: |_| true, has_scene: true, has_reading: true };
     const NONE: fn(&str) -> bool = |_| false;
-    const LINES: Taken = Taken { style: Some(StyleName::Lines), ..ALL };
+    const LINES: FunctionSettings = FunctionSettings { style: Some(StyleName::Lines), ..ALL };
     let drawing: fn(&str) -> bool = |name| !LineSettings::table().has(name);
     let tones: fn(&str) -> bool = |name| name.starts_with("tone") && name != "tone-lookup";
     let finding: fn(&str) -> bool = |name| LineSettings::table().has(name);
-    let reading = Taken { of_style: NONE, has_scene: false, ..ALL };
+    let reading = FunctionSettings { of_style: NONE, has_scene: false, ..ALL };
     [
         ("lines", LINES),
-        ("Lines.svg", Taken { of_style: drawing, has_scene: false, has_reading: false, ..LINES }),
-        ("Lines.regions", Taken { of_style: tones, has_scene: false, has_reading: false, ..ALL }),
+        ("Lines.svg", FunctionSettings { of_style: drawing, has_scene: false, has_reading: false, ..LINES }),
+        ("Lines.regions", FunctionSettings { of_style: tones, has_scene: false, has_reading: false, ..ALL }),
         ("render", ALL),
         ("mesh", reading),
-        ("edges", Taken { of_style: finding, has_scene: false, ..LINES }),
+        ("edges", FunctionSettings { of_style: finding, has_scene: false, ..LINES }),
         ("silhouette", reading),
-        ("measure", Taken { of_style: NONE, ..ALL }),
+        ("measure", FunctionSettings { of_style: NONE, ..ALL }),
         ("compare", ALL),
     ]
 };
@@ -71,7 +72,7 @@ pub(crate) fn draws_lines(function: &str) -> bool {
     taken_by(function).is_some_and(|taken| taken.style.is_some_and(StyleName::draws_lines))
 }
 
-fn taken_by(function: &str) -> Option<&'static Taken> {
+fn taken_by(function: &str) -> Option<&'static FunctionSettings> {
     FUNCTIONS.iter().find(|(name, _)| *name == function).map(|(_, taken)| taken)
 }
 

@@ -9,8 +9,8 @@ use std::io::{Result, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub(super) struct ApngEncoder {
-    writer: Writer<Shared>,
-    file: Shared,
+    writer: Writer<SharedBytes>,
+    file: SharedBytes,
     size: Size,
     transparent: bool,
     before: Vec<u8>,
@@ -18,9 +18,9 @@ pub(super) struct ApngEncoder {
 
 /// The file in progress, kept here because the writer does not return its own.
 #[derive(Clone, Default)]
-struct Shared(Arc<Mutex<Vec<u8>>>);
+struct SharedBytes(Arc<Mutex<Vec<u8>>>);
 
-impl Write for Shared {
+impl Write for SharedBytes {
     fn write(&mut self, bytes: &[u8]) -> Result<usize> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).write(bytes)
     }
@@ -30,15 +30,15 @@ impl Write for Shared {
     }
 }
 
-type Encoded<T> = std::result::Result<T, String>;
+type ApngResult<T> = std::result::Result<T, String>;
 
 fn in_words(error: png::EncodingError) -> String {
     format!("the animation cannot be encoded ({error}); write .gif or numbered pictures")
 }
 
 impl ApngEncoder {
-    pub(super) fn new(size: Size, transparent: bool, frames: u32, delay_ms: u16) -> Encoded<Self> {
-        let file = Shared::default();
+    pub(super) fn new(size: Size, transparent: bool, frames: u32, delay_ms: u16) -> ApngResult<Self> {
+        let file = SharedBytes::default();
         let writer = || {
             let mut encoder = Encoder::new(file.clone(), size.width, size.height);
             encoder.set_color(if transparent { ColorType::Rgba } else { ColorType::Rgb });
@@ -55,7 +55,7 @@ impl ApngEncoder {
     }
 
     /// Stores the changes since the previous picture.
-    pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
+    pub(super) fn add(&mut self, picture: Picture) -> ApngResult<()> {
         let picture = if self.transparent { picture } else { picture.opaque() };
         let part = if self.before.is_empty() {
             Rectangle::whole(self.size)
@@ -80,7 +80,7 @@ impl ApngEncoder {
         write().map_err(in_words)
     }
 
-    pub(super) fn finish(self) -> Encoded<Vec<u8>> {
+    pub(super) fn finish(self) -> ApngResult<Vec<u8>> {
         self.writer.finish().map_err(in_words)?;
         Ok(std::mem::take(&mut *self.file.0.lock().unwrap_or_else(PoisonError::into_inner)))
     }

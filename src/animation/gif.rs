@@ -25,14 +25,14 @@ pub(super) struct GifEncoder {
     before: Vec<u8>,
 }
 
-type Encoded<T> = std::result::Result<T, String>;
+type GifResult<T> = std::result::Result<T, String>;
 
 fn in_words(error: EncodingError) -> String {
     format!("the animation cannot be encoded ({error}); write .apng or numbered pictures")
 }
 
 impl GifEncoder {
-    pub(super) fn new(size: Size, transparent: bool, delay_ms: u16) -> Encoded<Self> {
+    pub(super) fn new(size: Size, transparent: bool, delay_ms: u16) -> GifResult<Self> {
         let [width, height] = [size.width, size.height].map(|side| side as u16);
         let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(in_words)?;
         encoder.set_repeat(Repeat::Infinite).map_err(in_words)?;
@@ -41,7 +41,7 @@ impl GifEncoder {
     }
 
     /// Stores the changes since the previous picture, or the whole visible picture if new holes appear.
-    pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
+    pub(super) fn add(&mut self, picture: Picture) -> GifResult<()> {
         let picture = if self.transparent { with_hard_edges(picture) } else { picture.opaque() };
         self.palette.fit(&picture.pixels);
         let part = if self.transparent {
@@ -80,7 +80,7 @@ impl GifEncoder {
         delay as u16
     }
 
-    pub(super) fn finish(self) -> Encoded<Vec<u8>> {
+    pub(super) fn finish(self) -> GifResult<Vec<u8>> {
         self.encoder.into_inner().map_err(in_words)
     }
 }

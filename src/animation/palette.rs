@@ -4,7 +4,7 @@
 //! a pattern that stays fixed on the screen. One palette serves frame after frame until it fits one too badly, because a new
 //! palette for each frame would make tones flicker.
 
-use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
+use super::quantize::{Histogram, Mix, PackedColor, choose, distance, mix};
 use std::collections::HashMap;
 
 /// The index of the transparent colour in pictures with holes. It is the first, so added colours do not move it.
@@ -13,9 +13,9 @@ pub(super) const TRANSPARENT: u8 = 0;
 pub(super) struct Palette {
     transparent: bool,
     /// The table, including the transparent entry.
-    colors: Vec<Packed>,
+    colors: Vec<PackedColor>,
     /// All colours found while this table was in use.
-    known: HashMap<Packed, Mix>,
+    known: HashMap<PackedColor, Mix>,
     is_exact: bool,
     /// Mean square error of the picture that the table was made for.
     error: f64,
@@ -89,13 +89,13 @@ impl Palette {
             && self.mean_error(histogram) <= (self.error * WORSE).max(UNSEEN)
     }
 
-    fn nearest(&self, color: Packed) -> Packed {
+    fn nearest(&self, color: PackedColor) -> PackedColor {
         self.known.get(&color).map_or(color, |mix| self.colors[usize::from(mix.first)])
     }
 
     fn mean_error(&self, histogram: &Histogram) -> f64 {
         let square =
-            |(color, count): &(Packed, u32)| f64::from(distance(*color, self.nearest(*color))) * f64::from(*count);
+            |(color, count): &(PackedColor, u32)| f64::from(distance(*color, self.nearest(*color))) * f64::from(*count);
         let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
         histogram.iter().map(square).sum::<f64>() / pixels
     }
@@ -103,7 +103,7 @@ impl Palette {
     /// Appends the indices of a row of pixels that begins at this place of the screen.
     pub(super) fn map_row<'a>(&self, pixels: impl Iterator<Item = &'a [u8]>, left: u32, y: u32, to: &mut Vec<u8>) {
         // Neighbours often have the same colour.
-        let mut last = (Packed::MAX, Mix { first: TRANSPARENT, second: TRANSPARENT, share: 0 });
+        let mut last = (PackedColor::MAX, Mix { first: TRANSPARENT, second: TRANSPARENT, share: 0 });
         for (x, pixel) in (left..).zip(pixels) {
             if pixel[3] == 0 {
                 to.push(TRANSPARENT);
@@ -124,14 +124,14 @@ impl Palette {
     }
 }
 
-fn packed(pixel: &[u8]) -> Packed {
+fn packed(pixel: &[u8]) -> PackedColor {
     u32::from_be_bytes([0, pixel[0], pixel[1], pixel[2]])
 }
 
 /// Returns the colours in order, with the number of pixels of each.
 fn histogram(pixels: &[u8]) -> Histogram {
     let kept = pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0);
-    let mut colors: Vec<Packed> = kept.map(packed).collect();
+    let mut colors: Vec<PackedColor> = kept.map(packed).collect();
     colors.sort_unstable();
     colors.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u32)).collect()
 }

@@ -2,10 +2,10 @@
 //! moved to the means of their neighbours (Lloyd). Crates for this bring large dependencies or shift flat tones.
 
 /// A colour as one number, red in the high byte.
-pub(super) type Packed = u32;
+pub(super) type PackedColor = u32;
 
 /// Colours with the number of their pixels.
-pub(super) type Histogram = Vec<(Packed, u32)>;
+pub(super) type Histogram = Vec<(PackedColor, u32)>;
 
 /// Two palette entries, and how many of 64 pixels get the second, at most half of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,28 +27,28 @@ const FLAT_ENTRIES: f64 = 0.5;
 /// Rounds that move entries to the means of their colours.
 const ROUNDS: usize = 3;
 
-fn channels(color: Packed) -> [i32; 3] {
+fn channels(color: PackedColor) -> [i32; 3] {
     let [_, red, green, blue] = color.to_be_bytes();
     [red, green, blue].map(i32::from)
 }
 
 /// Returns the square of the weighted distance of two colours, in square steps of 255 (the weights' sum makes it three times too
 /// large).
-pub(super) fn distance(a: Packed, b: Packed) -> f32 {
+pub(super) fn distance(a: PackedColor, b: PackedColor) -> f32 {
     let (a, b) = (channels(a), channels(b));
     let sum: i32 = (0..3).map(|channel| WEIGHTS[channel] * (a[channel] - b[channel]).pow(2)).sum();
     sum as f32 / 3.0
 }
 
 /// Returns at most `room` colours for a picture that has more.
-pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
+pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<PackedColor> {
     let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
     let mut by_count = histogram.clone();
     by_count.sort_unstable_by_key(|(color, count)| (std::cmp::Reverse(*count), *color));
     let flat_room = (room as f64 * FLAT_ENTRIES) as usize;
     let flat_count = by_count.iter().take(flat_room).take_while(|(_, n)| f64::from(*n) >= pixels * FLAT_SHARE).count();
     let others = by_count.split_off(flat_count);
-    let mut colors: Vec<Packed> = by_count.iter().map(|(color, _)| *color).collect();
+    let mut colors: Vec<PackedColor> = by_count.iter().map(|(color, _)| *color).collect();
     fill(&mut colors, &others, room);
     for _ in 0..ROUNDS {
         move_to_means(&mut colors, flat_count, &others);
@@ -59,7 +59,7 @@ pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
 }
 
 /// Adds colours of a histogram up to so many: each time the one whose pixels the others serve worst.
-fn fill(colors: &mut Vec<Packed>, histogram: &Histogram, room: usize) {
+fn fill(colors: &mut Vec<PackedColor>, histogram: &Histogram, room: usize) {
     let mut errors = vec![f32::INFINITY; histogram.len()];
     let mut known = 0;
     while known < room {
@@ -78,7 +78,7 @@ fn fill(colors: &mut Vec<Packed>, histogram: &Histogram, room: usize) {
 }
 
 /// Moves all entries except the first, fixed ones to the mean of their nearest colours.
-fn move_to_means(colors: &mut [Packed], fixed: usize, histogram: &Histogram) {
+fn move_to_means(colors: &mut [PackedColor], fixed: usize, histogram: &Histogram) {
     let mut sums = vec![[0.0f64; 4]; colors.len()];
     for (color, count) in histogram {
         let sum = &mut sums[nearest(*color, colors)];
@@ -92,13 +92,13 @@ fn move_to_means(colors: &mut [Packed], fixed: usize, histogram: &Histogram) {
     }
 }
 
-fn nearest(color: Packed, colors: &[Packed]) -> usize {
+fn nearest(color: PackedColor, colors: &[PackedColor]) -> usize {
     let distances = colors.iter().map(|entry| distance(color, *entry)).enumerate();
     distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }
 
 /// Returns two entries, at `first_color` or later, and their shares; their mix is nearest to a colour without being rough.
-pub(super) fn mix(color: Packed, colors: &[Packed], first_color: usize) -> Mix {
+pub(super) fn mix(color: PackedColor, colors: &[PackedColor], first_color: usize) -> Mix {
     /// The weight of the entries' difference against the difference between their mean and the colour.
     const ROUGHNESS: f32 = 0.25;
     let first = first_color + nearest(color, &colors[first_color..]);

@@ -13,7 +13,7 @@ mod worker;
 mod worker_process;
 
 use super::bare::is_model;
-use super::options::{Chosen, OfRequest};
+use super::options::{GivenOptions, OfRequest};
 use super::progress::Progress;
 use super::signals::Stop;
 use super::standard_input;
@@ -42,7 +42,7 @@ pub(super) const COMMAND: Command = Command {
 
 /// The options. The short help lists those of a batch and the most usual ones of drawings.
 fn arguments(command: clap::Command) -> clap::Command {
-    let is_rare = |name: &str| Chosen::<OfRequest>::has(name) && !["style", "size", "view"].contains(&name);
+    let is_rare = |name: &str| GivenOptions::<OfRequest>::has(name) && !["style", "size", "view"].contains(&name);
     <Arguments as clap::Args>::augment_args(command).mut_args(|arg| match is_rare(arg.get_id().as_str()) {
         true => arg.hide_short_help(true),
         false => arg,

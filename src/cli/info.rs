@@ -1,10 +1,10 @@
 //! `tinta info`: whether tinta works here, with the properties of every backend or why it failed; or a model's edges by class.
 
 use super::models::load_meshes;
-use super::options::{Chosen, Selection};
+use super::options::{GivenOptions, Selection};
 use super::{Command, Verdict, given};
 use serde_json::json;
-use tinta::drivers::{Checked, Found, check};
+use tinta::drivers::{DriverCheck, DriverFindings, check};
 use tinta::edges::{Class, ClassCounts, ClassSet, Classes, SilhouetteRule, Silhouettes};
 use tinta::gl::context::{Attempt, Outcome, attempts};
 use tinta::glam::DVec3;
@@ -46,10 +46,10 @@ pub(super) struct Arguments {
     json: bool,
 
     #[command(flatten)]
-    crease: Chosen<OfEdges>,
+    crease: GivenOptions<OfEdges>,
 
     #[command(flatten)]
-    read: Chosen<OfReading>,
+    read: GivenOptions<OfReading>,
 }
 
 /// The setting of the edge list, the same as in the style inking.
@@ -116,10 +116,10 @@ fn run_check(arguments: &Arguments) -> Result<Verdict> {
     } else {
         super::print(&checked.iter().map(checked_in_words).collect::<String>())?;
     }
-    let found: Vec<&Found> = checked.iter().filter_map(|checked| checked.found.as_ref()).collect();
+    let found: Vec<&DriverFindings> = checked.iter().filter_map(|checked| checked.found.as_ref()).collect();
     match (found.is_empty(), found.iter().all(|found| found.is_good())) {
         (true, _) => {
-            let reason = |checked: Checked| format!("{}: {}", checked.device, checked.error.unwrap_or_default());
+            let reason = |checked: DriverCheck| format!("{}: {}", checked.device, checked.error.unwrap_or_default());
             Err(Error::NoContext { attempts: checked.into_iter().map(reason).collect() })
         }
         (false, true) => Ok(Verdict::Good),
@@ -127,7 +127,7 @@ fn run_check(arguments: &Arguments) -> Result<Verdict> {
     }
 }
 
-fn checked_in_words(checked: &Checked) -> String {
+fn checked_in_words(checked: &DriverCheck) -> String {
     let Some(found) = &checked.found else {
         let error = checked.error.clone().unwrap_or_default();
         return format!("{}\n  no context: {error}\n\n", checked.device);

@@ -9,7 +9,7 @@ use tinta::{Error, Result};
 
 /// Messages and output captured.
 #[derive(Default)]
-pub(super) struct Captured {
+pub(super) struct CapturedMessages {
     /// Sentences for the person.
     pub said: Vec<String>,
     /// Results.
@@ -17,15 +17,15 @@ pub(super) struct Captured {
 }
 
 /// For the whole process: a job may print from several threads.
-static CAPTURED: Mutex<Option<Captured>> = Mutex::new(None);
+static CAPTURED: Mutex<Option<CapturedMessages>> = Mutex::new(None);
 
 /// Starts to capture messages.
 pub(super) fn capture() {
-    *CAPTURED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Captured::default());
+    *CAPTURED.lock().unwrap_or_else(PoisonError::into_inner) = Some(CapturedMessages::default());
 }
 
 /// Ends the capture and returns its contents.
-pub(super) fn captured() -> Captured {
+pub(super) fn captured() -> CapturedMessages {
     CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default()
 }
 

@@ -3,12 +3,12 @@
 use super::standard_input;
 use std::path::Path;
 use std::sync::Arc;
-use tinta::mesh::{Loaded, load, read_as, refuse_address};
+use tinta::mesh::{LoadedModel, load, read_as, refuse_address};
 use tinta::request::{ModelCache, Session};
 use tinta::{Backend, Error, LoadOptions, Mesh, Renderer, Result};
 
 /// Reads a model: a file, a built-in one, or standard input.
-pub(super) fn read(model: &str, options: &LoadOptions) -> Result<Loaded> {
+pub(super) fn read(model: &str, options: &LoadOptions) -> Result<LoadedModel> {
     match model {
         standard_input::DASH => read_as(&standard_input::model()?, standard_input::NAME, options),
         path => load(path, options),

@@ -23,13 +23,13 @@ use tinta::{LoadOptions, Result};
 
 /// The given options of a selection on the command line.
 #[derive(Debug)]
-pub struct Chosen<S> {
+pub struct GivenOptions<S> {
     /// By name, as in a preset.
     pub options: Options,
     selection: PhantomData<S>,
 }
 
-impl<S: Selection> Chosen<S> {
+impl<S: Selection> GivenOptions<S> {
     fn all() -> impl Iterator<Item = &'static Setting<S::Of>> {
         S::Of::table().of(None).into_iter().filter(|setting| S::has(setting))
     }
@@ -115,7 +115,7 @@ pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
     })
 }
 
-impl<S: Selection> clap::Args for Chosen<S> {
+impl<S: Selection> clap::Args for GivenOptions<S> {
     fn augment_args(command: Command) -> Command {
         with_settings(command, S::Of::table(), Self::all(), S::HAS_HEADINGS)
     }
@@ -125,7 +125,7 @@ impl<S: Selection> clap::Args for Chosen<S> {
     }
 }
 
-impl<S: Selection> FromArgMatches for Chosen<S> {
+impl<S: Selection> FromArgMatches for GivenOptions<S> {
     fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
         let mut chosen = Self { options: Options::new(), selection: PhantomData };
         for group in groups(Self::all()).iter().filter(|group| !group.inside.is_empty()) {
@@ -266,7 +266,7 @@ pub struct Below<'a> {
     pub command: &'static str,
 }
 
-impl<S: Selection<Of = Request>> Chosen<S> {
+impl<S: Selection<Of = Request>> GivenOptions<S> {
     /// Returns the request made by these options, and the options without effect.
     pub fn request(&self, models: &[String], below: &Below<'_>) -> Result<(Request, Vec<String>)> {
         let preset = below.preset.map(Preset::read).transpose()?;

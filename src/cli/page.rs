@@ -3,7 +3,7 @@
 //! The page is built once, by `scripts/web`, and put beside the program by packages. This command leaves out what a lesson does
 //! not need and adds the model, the styles and the lecture.
 
-use super::options::{Below, Chosen, NamedLook, PresetFile, Selection};
+use super::options::{Below, GivenOptions, NamedLook, PresetFile, Selection};
 use super::{Command, Verdict, given, say, standard_input};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tinta::camera::View;
 use tinta::glsl::es::{Stage, transcribed};
-use tinta::mesh::{Loaded, load};
+use tinta::mesh::{LoadedModel, load};
 use tinta::page::NOT_OF_BROWSERS;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, names_of, on_off};
@@ -88,7 +88,7 @@ pub(super) struct Arguments {
     preset: PresetFile,
 
     #[command(flatten)]
-    options: Chosen<OfPage>,
+    options: GivenOptions<OfPage>,
 }
 
 /// What a page shows: no files besides the model's, no output.
@@ -144,7 +144,7 @@ fn run(arguments: &Arguments) -> Result<()> {
 /// The drawing of the left side.
 fn request(arguments: &Arguments) -> Result<Request> {
     let Arguments { look, preset, .. } = arguments;
-    let mut options = Chosen::<OfPage>::of_options(&arguments.options.options);
+    let mut options = GivenOptions::<OfPage>::of_options(&arguments.options.options);
     let is_free = look.look.is_none() && preset.preset.is_none() && !options.options.contains_key("style");
     if let Some(lecture) = arguments.lecture.filter(|_| is_free) {
         options.options.insert("style".to_owned(), OptionValue::text(lecture.style().name()));
@@ -162,7 +162,7 @@ fn request(arguments: &Arguments) -> Result<Request> {
 }
 
 /// The files of a model by their names, the model's own first; none for a built-in one.
-fn files(model: &str, loaded: &Loaded) -> Result<Vec<(String, Vec<u8>)>> {
+fn files(model: &str, loaded: &LoadedModel) -> Result<Vec<(String, Vec<u8>)>> {
     if model.starts_with("builtin:") {
         return Ok(Vec::new());
     }

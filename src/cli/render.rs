@@ -15,7 +15,7 @@ pub use animate::views;
 use super::Verdict;
 use super::batch::JobOptions;
 use super::inputs::Inputs;
-use super::options::{Below, CameraFile, Chosen, Looks, NamedLooks, OfRequest, PresetFile};
+use super::options::{Below, CameraFile, GivenOptions, Looks, NamedLooks, OfRequest, PresetFile};
 use super::run_settings::{OfRun, RunSettings, is_of_one_run};
 use super::{Command, given};
 use rendering::{Rendering, pictures_of};
@@ -24,7 +24,7 @@ use tinta::lines::{DrawingFormat, Progress};
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::preset::{LOOKS, Look};
-use tinta::record::{Made, PictureMade, Summary};
+use tinta::record::{DrawingFacts, PictureMade, Summary};
 use tinta::request::{DrawnPicture, Request, Session, Times};
 use tinta::settings::refuse_exclusive;
 use tinta::{Error, Recipe, Renderer, Result, Target};
@@ -48,7 +48,7 @@ pub(super) const COMMAND: Command = Command {
         Ok(Box::new(move |session| run(&arguments, session)))
     }),
     told: is_drawn,
-    has_in_jobs: |name| name == "look" || Chosen::<OfRun>::has(name) || Chosen::<OfRequest>::has(name),
+    has_in_jobs: |name| name == "look" || GivenOptions::<OfRun>::has(name) || GivenOptions::<OfRequest>::has(name),
     ..Command::new("render", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.session)
     })
@@ -67,10 +67,10 @@ pub(super) struct Arguments {
     pub output: String,
 
     #[command(flatten)]
-    pub options: Chosen<OfRequest>,
+    pub options: GivenOptions<OfRequest>,
 
     #[command(flatten)]
-    pub run: Chosen<OfRun>,
+    pub run: GivenOptions<OfRun>,
 
     #[command(flatten)]
     pub look: NamedLooks,
@@ -88,8 +88,8 @@ impl Arguments {
         Ok(Self {
             models: job.models.clone(),
             output: job.output.clone(),
-            options: Chosen::of_options(&job.options),
-            run: Chosen::of_options(&job.options),
+            options: GivenOptions::of_options(&job.options),
+            run: GivenOptions::of_options(&job.options),
             look: NamedLooks { looks: job.look()?.map(Looks::One) },
             preset: job.preset(),
             camera: job.camera(),
@@ -274,7 +274,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
         return super::print(&text);
     }
     let (frame_ms, passes) = timed.unzip();
-    let made = Made::Picture(Box::new(PictureMade {
+    let made = DrawingFacts::Picture(Box::new(PictureMade {
         show: request.show,
         color: scene.color,
         recolor: scene.recolor,

@@ -1,11 +1,11 @@
 //! `tinta view`: models in a window.
 
 use super::models::refuse_missing;
-use super::options::{Below, Chosen, NamedLook, PresetFile, Selection};
+use super::options::{Below, GivenOptions, NamedLook, PresetFile, Selection};
 use super::standard_input;
 use super::{Call, Command, Verdict, given};
 use std::path::PathBuf;
-use tinta::preset::Named;
+use tinta::preset::StyleOrLook;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Setting};
 
@@ -17,7 +17,7 @@ use tinta::{Error, LoadOptions, Result, Size, Style};
 /// The command.
 pub(super) const COMMAND: Command = Command {
     examples: &["tinta view cow.obj                              turn it, try styles"],
-    offers: |option| if option == "right" { Named::names() } else { Vec::new() },
+    offers: |option| if option == "right" { StyleOrLook::names() } else { Vec::new() },
     ..Command::new("view", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call).map(|()| Verdict::Good)
     })
@@ -33,7 +33,7 @@ pub(super) struct Arguments {
 
     /// Second style or look, right of a divider [default: none]
     #[arg(long, value_name = "STYLE|LOOK")]
-    right: Option<Named>,
+    right: Option<StyleOrLook>,
 
     /// Size of the window in points, or one number for a square [default: 1280x720]
     #[arg(long, hide_short_help = true, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
@@ -62,7 +62,7 @@ pub(super) struct Arguments {
     preset: PresetFile,
 
     #[command(flatten)]
-    options: Chosen<OfWindow>,
+    options: GivenOptions<OfWindow>,
 }
 
 /// The viewer's initial settings; the mouse changes the rest.
@@ -117,18 +117,18 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
 }
 
 /// The first state.
-fn state(request: &Request, right: Option<Named>, is_coarse: bool) -> Result<ViewerState> {
+fn state(request: &Request, right: Option<StyleOrLook>, is_coarse: bool) -> Result<ViewerState> {
     let mut state = ViewerState::new(request.models.clone(), Orbit::default());
     // Options apply to every style that has them, even one chosen later.
     state.put_request(request);
     request.contents(false)?;
     if let Some(right) = right {
         let named = match right {
-            Named::Style(style) => {
+            StyleOrLook::Style(style) => {
                 request.in_style(style)?;
                 ViewerEvent::Style(Side::Right, style.name().to_owned())
             }
-            Named::Look(look) => ViewerEvent::Look(look.name.to_owned()),
+            StyleOrLook::Look(look) => ViewerEvent::Look(look.name.to_owned()),
         };
         for event in [
             ViewerEvent::Layout(Layout::Split),
@@ -160,7 +160,7 @@ mod tests {
         let [print, sketch] = ["print", "sketch"].map(|name| Look::of_name(name).unwrap());
         let of = |layer| Request::from_layers(&[layer]).unwrap().0;
         let left = of(OptionLayer::Look(sketch));
-        let shown = state(&left, Some(Named::Look(print)), false).unwrap();
+        let shown = state(&left, Some(StyleOrLook::Look(print)), false).unwrap();
         assert_eq!(
             (shown.style(Side::Left), shown.style(Side::Right)),
             (&left.style, &of(OptionLayer::Look(print)).style)
@@ -169,7 +169,7 @@ mod tests {
         assert_eq!(shown.orbit.view, left.scene.camera.view);
         // A style says nothing of the scene: it is the look's.
         let inking = of(OptionLayer::Style(StyleName::Inking));
-        let shown = state(&inking, Some(Named::Look(LOOKS[0])), false).unwrap();
+        let shown = state(&inking, Some(StyleOrLook::Look(LOOKS[0])), false).unwrap();
         assert_eq!(shown.orbit.view, of(OptionLayer::Look(LOOKS[0])).scene.camera.view);
     }
 }

@@ -16,8 +16,8 @@ use std::rc::Rc;
 
 /// The textures that connect passes.
 pub(super) struct Targets {
-    border_map: Option<Copied>,
-    depth_map: Option<Copied>,
+    border_map: Option<TextureCopy>,
+    depth_map: Option<TextureCopy>,
     drawn: Option<TextureTargets>,
     /// Stands in for the framebuffer while depth is taken from it.
     surface: Option<TextureTargets>,
@@ -163,9 +163,9 @@ fn refused(info: &ContextInfo, attachments: &Attachments, lack: &str) -> Error {
 }
 
 /// A texture copied from a framebuffer of this size.
-type Copied = (Size, Texture);
+type TextureCopy = (Size, Texture);
 
-fn copy(gl: &Rc<Gl>, copied: &mut Option<Copied>, format: u32, size: Size, part: Option<Rectangle>) -> Result<()> {
+fn copy(gl: &Rc<Gl>, copied: &mut Option<TextureCopy>, format: u32, size: Size, part: Option<Rectangle>) -> Result<()> {
     let (width, height) = (size.width as i32, size.height as i32);
     if let (Some((present, texture)), Some(part)) = (&copied, part)
         && *present == size

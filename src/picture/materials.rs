@@ -21,11 +21,11 @@ enum Source<'a> {
 }
 
 /// A material's picture: as read and as shown.
-type Read = [Arc<Picture>; 2];
+type MaterialPicture = [Arc<Picture>; 2];
 
 /// The pictures on the materials of a scene's objects, each read once for all copies of an object.
 #[derive(Debug, Default)]
-pub struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<Read>>)>);
+pub struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<MaterialPicture>>)>);
 
 impl MaterialPictures {
     /// Reads a scene's missing pictures and releases unused ones. Those finer than the pixels are averaged if the size of the surface

@@ -78,7 +78,7 @@ pub(super) struct PreparedDraw<'a> {
     pub(super) is_texture: bool,
 }
 
-type Named<'a> = Vec<(&'a str, Value)>;
+type NamedValues<'a> = Vec<(&'a str, Value)>;
 
 /// What a vertex passes on, by name.
 type Varyings = Vec<(String, Value)>;
@@ -185,7 +185,7 @@ impl PreparedDraw<'_> {
         let matrix = |matrix: Mat4| Value::matrix(&matrix.to_cols_array().map(f64::from));
         let turn = DMat3::from_mat4(group.view_from_object.as_dmat4()).inverse().transpose();
         let vector = |numbers: [f32; 4]| Value::floats(&numbers.map(f64::from));
-        let mut inputs: Named<'_> = vec![
+        let mut inputs: NamedValues<'_> = vec![
             ("gl_Vertex", Value::floats(&[x, y, z, 1.0])),
             ("gl_Normal", Value::floats(&[nx, ny, nz])),
             ("gl_Color", vector(group.color(cover.triangle, corner))),
@@ -202,7 +202,7 @@ impl PreparedDraw<'_> {
     }
 
     /// The draw's uniforms, samplers among them.
-    fn uniforms(&self) -> Named<'_> {
+    fn uniforms(&self) -> NamedValues<'_> {
         let value = |value: plan::Value| match value {
             plan::Value::Float(x) => Value::floats(&[f64::from(x)]),
             plan::Value::Int(x) => Value::int(x),
@@ -260,7 +260,7 @@ impl PreparedDraw<'_> {
     ) -> Result<Run> {
         let varyings = self.interpolated(cover, corners);
         let kept = |number: f64| if self.precision == Precision::Single { f64::from(number as f32) } else { number };
-        let mut inputs: Named<'_> = vec![
+        let mut inputs: NamedValues<'_> = vec![
             ("gl_FragCoord", Value::floats(&[x, y, kept(cover.depth), kept(cover.inverse_w)])),
             ("gl_FrontFacing", Value::bool(cover.is_front)),
         ];

@@ -84,7 +84,7 @@ impl Plan {
     pub fn check(&self, scene: &Scene) -> Result<(), Flaw> {
         self.check_as_a_whole()?;
         let surface = scene.size.times(self.supersample);
-        let mut written = Written::default();
+        let mut written = WrittenTargets::default();
         for pass in &self.passes {
             if let Some(scissor) = pass.scissor {
                 check_rectangle(scissor, surface, pass.name)?;
@@ -142,7 +142,7 @@ impl Plan {
 
 /// The targets and textures that the steps so far have written.
 #[derive(Default)]
-struct Written {
+struct WrittenTargets {
     /// Textures written by passes.
     textures: Vec<Texture>,
     /// Colour and depth of the framebuffer.
@@ -151,7 +151,7 @@ struct Written {
     texture_depth: bool,
 }
 
-impl Written {
+impl WrittenTargets {
     fn follow(&mut self, plan: &Plan, step: &Step, target: Target, pass: &'static str) -> Result<(), Flaw> {
         match step {
             Step::Clear { color, depth } => {

@@ -1,6 +1,6 @@
 //! Pruning: shortens a plan by facts about the scene without changing the picture.
 //!
-//! In: a published [`Plan`] and the [`Scene`] it was made for. Out: [`Pruned`], the plan without steps that cannot change a byte
+//! In: a published [`Plan`] and the [`Scene`] it was made for. Out: [`PrunedPlan`], the plan without steps that cannot change a byte
 //! of the picture. For each [`Rule`] it holds either the [`Omission`], with its reason and the facts it rests on, or why the rule
 //! left everything in. Shaders' effects come only from the facts that the plan states of its draws ([`super::Facts`]). So
 //! anyone's plans can be shortened, and replaced shaders are never misjudged. Every rule must be exact on every driver; nearly
@@ -23,7 +23,7 @@ use std::cell::OnceCell;
 
 /// A rule that left everything in.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Kept {
+pub struct IdleRule {
     /// Its name.
     #[serde(rename = "name")]
     pub rule: Rule,
@@ -33,18 +33,18 @@ pub struct Kept {
 
 /// A plan without parts that its scene does not need.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pruned {
+pub struct PrunedPlan {
     /// The shortened plan.
     pub plan: Plan,
     /// The parts left out, in order of removal.
     pub omissions: Vec<Omission>,
     /// The other rules.
-    pub kept: Vec<Kept>,
+    pub kept: Vec<IdleRule>,
 }
 
 /// Removes all parts of a plan, made for this scene, that cannot change its picture.
-pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
-    let mut pruned = Pruned { plan: plan.clone(), omissions: Vec::new(), kept: Vec::new() };
+pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> PrunedPlan {
+    let mut pruned = PrunedPlan { plan: plan.clone(), omissions: Vec::new(), kept: Vec::new() };
     pruned.plan.forget_facts_of(&pruning.replaced_shaders);
     let situation = Situation { scene, surface: scene.size.times(plan.supersample), pruning, extent: OnceCell::new() };
     for (_, rule) in Rule::ALL {
@@ -54,7 +54,7 @@ pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
         };
         match result {
             Ok(omission) => pruned.omissions.push(omission),
-            Err(reason) => pruned.kept.push(Kept { rule, reason }),
+            Err(reason) => pruned.kept.push(IdleRule { rule, reason }),
         }
     }
     pruned

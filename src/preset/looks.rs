@@ -81,14 +81,14 @@ impl Look {
 
 /// A style as published, or a look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Named {
+pub enum StyleOrLook {
     /// A style.
     Style(StyleName),
     /// A look.
     Look(Look),
 }
 
-impl Named {
+impl StyleOrLook {
     /// All names, those of styles first.
     pub fn names() -> Vec<&'static str> {
         names_of::<StyleName>().into_iter().chain(LOOKS.map(|look| look.name)).collect()
@@ -103,7 +103,7 @@ impl Named {
     }
 }
 
-impl FromStr for Named {
+impl FromStr for StyleOrLook {
     type Err = ParseError;
 
     fn from_str(name: &str) -> std::result::Result<Self, ParseError> {
@@ -120,12 +120,12 @@ mod tests {
 
     #[test]
     fn styles_and_looks_have_names_of_their_own() {
-        let names = Named::names();
+        let names = StyleOrLook::names();
         for (number, name) in names.iter().enumerate() {
             assert!(!names[..number].contains(name), "{name} means two things");
-            assert_eq!(name.parse::<Named>().unwrap().name(), *name);
+            assert_eq!(name.parse::<StyleOrLook>().unwrap().name(), *name);
         }
-        assert!("sketsch".parse::<Named>().unwrap_err().to_string().contains("did you mean sketch?"));
+        assert!("sketsch".parse::<StyleOrLook>().unwrap_err().to_string().contains("did you mean sketch?"));
         let gone = Look::of_name("charcoal").unwrap_err().to_string();
         assert_eq!(gone, "charcoal is the name of a style; the look of earlier versions is sketch now");
     }

@@ -3,7 +3,7 @@
 use super::around::Around;
 use super::drawing::DrawnLines;
 use super::emptiness::empty_remark;
-use super::{ModelCache, Request, Resolved, Session, Wanted, ignored_remark};
+use super::{ModelCache, Request, Resolved, Session, WantedLines, ignored_remark};
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use crate::glsl;
@@ -11,7 +11,7 @@ use crate::lines::{Phase, Progress};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
-use crate::plan::prune::{Kept, Omission, Pruned, prune};
+use crate::plan::prune::{IdleRule, Omission, PrunedPlan, prune};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::styles::{Below, is_of_vectors};
 use crate::threads::both;
@@ -33,7 +33,7 @@ pub struct DrawnPicture {
     /// The omissions, with reasons.
     pub omissions: Vec<Omission>,
     /// The rules that omitted nothing, with reasons.
-    pub kept: Vec<Kept>,
+    pub kept: Vec<IdleRule>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
     /// The shadow and the lines around the plan's picture.
@@ -79,7 +79,7 @@ pub struct ReadModels {
 }
 
 /// A picture ready to draw, with its plan and the exact lines over it.
-struct Planned {
+struct PlannedPicture {
     resolved: Resolved,
     files: Vec<PathBuf>,
     published: Plan,
@@ -93,7 +93,7 @@ impl Request {
     /// # Errors
     ///
     /// Those of reading, and of the settings with this scene; [`Error::Cancelled`] where `progress` was.
-    pub fn lines(&self, session: &Session, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
+    pub fn lines(&self, session: &Session, wanted: WantedLines, progress: &Progress) -> Result<DrawnLines> {
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
         let drawn = self.resolve(meshes, true)?.drawn_lines(wanted, progress)?;
         Ok(DrawnLines { files, load_ms, ..drawn })
@@ -177,7 +177,7 @@ impl Request {
     pub fn picture(&self, session: &mut Session, progress: &Progress) -> Result<DrawnPicture> {
         self.refuse_vectors_options()?;
         let (Times { context_ms, warm_up_ms, .. }, loaded) = self.ready(session, progress);
-        let Planned { resolved, files, published, around, times } = loaded?;
+        let PlannedPicture { resolved, files, published, around, times } = loaded?;
         let drawn = resolved.drawn_picture(published, around, self.renderer(session)?)?;
         let Times { plan_ms, first_frame_ms, .. } = drawn.times;
         let plan_ms = times.plan_ms + plan_ms;
@@ -185,7 +185,7 @@ impl Request {
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.
-    fn ready(&self, session: &mut Session, progress: &Progress) -> (Times, Result<Planned>) {
+    fn ready(&self, session: &mut Session, progress: &Progress) -> (Times, Result<PlannedPicture>) {
         let backend = self.backend;
         if session.has(backend) {
             return (Times::default(), self.planned(&session.models, session.submission, progress));
@@ -234,7 +234,12 @@ impl Request {
     }
 
     /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
-    fn planned(&self, cache: &ModelCache, submission: crate::plan::Submission, progress: &Progress) -> Result<Planned> {
+    fn planned(
+        &self,
+        cache: &ModelCache,
+        submission: crate::plan::Submission,
+        progress: &Progress,
+    ) -> Result<PlannedPicture> {
         let ReadModels { meshes, files, stages, ms: load_ms } = self.models(cache)?;
         let resolved = self.resolve(meshes, false)?;
         let passes = || -> Result<(Plan, Times)> {
@@ -249,7 +254,7 @@ impl Request {
         let (around, (published, times)) = (around?, planned?);
         progress.begin(Phase::Drawing, 0);
         let times = Times { load_ms, stages, lines_ms: around.found_ms, ..times };
-        Ok(Planned { resolved, files, published, around, times })
+        Ok(PlannedPicture { resolved, files, published, around, times })
     }
 }
 
@@ -259,18 +264,18 @@ impl Resolved {
     /// # Errors
     ///
     /// Those of [`Resolved::plan`] and `Renderer::choose_context`.
-    pub fn plans(&self, renderer: &mut Renderer) -> Result<(Plan, Pruned)> {
+    pub fn plans(&self, renderer: &mut Renderer) -> Result<(Plan, PrunedPlan)> {
         let published = self.plan()?;
         let pruned = self.pruned(&published, renderer)?;
         Ok((published, pruned))
     }
 
     /// Prunes a plan of everything that cannot change the picture.
-    fn pruned(&self, published: &Plan, renderer: &mut Renderer) -> Result<Pruned> {
+    fn pruned(&self, published: &Plan, renderer: &mut Renderer) -> Result<PrunedPlan> {
         renderer.choose_context(self.lit(), published)?;
         Ok(match self.request.pruning.pruning(renderer) {
             Some(pruning) => prune(published, self.lit(), &pruning),
-            None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
+            None => PrunedPlan { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
         })
     }
 
@@ -280,7 +285,7 @@ impl Resolved {
     ///
     /// Those of [`Resolved::plans`], [`Resolved::around`] and [`Renderer::draw`].
     pub fn picture(&self, renderer: &mut Renderer) -> Result<Picture> {
-        let (_, Pruned { plan, .. }) = self.plans(renderer)?;
+        let (_, PrunedPlan { plan, .. }) = self.plans(renderer)?;
         self.around(&Progress::default())?.drawn(self, &plan, renderer)
     }
 
@@ -292,7 +297,7 @@ impl Resolved {
     pub fn drawn_picture(self, published: Plan, around: Around, renderer: &mut Renderer) -> Result<DrawnPicture> {
         let mut times = Times::default();
         let start = Instant::now();
-        let Pruned { plan, omissions, kept } = self.pruned(&published, renderer)?;
+        let PrunedPlan { plan, omissions, kept } = self.pruned(&published, renderer)?;
         times.plan_ms = milliseconds_since(start);
         let mut remarks = self.picture_remarks(&plan, renderer);
         let start = Instant::now();

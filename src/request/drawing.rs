@@ -3,18 +3,18 @@
 //! Every door ends here: it chooses a [`DrawingFormat`] and a target, and may give a recipe or paths whose strokes keep their numbers.
 
 use super::emptiness::reason;
-use super::{Resolved, Wanted};
+use super::{Resolved, WantedLines};
 use crate::edges::{Class, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingContent, DrawingFormat, DrawingSettings, Hidden, Length, LinePath, LineSegment, LineSettings, PageSize,
+    DrawingContent, DrawingFormat, DrawingSettings, HiddenLines, Length, LinePath, LineSegment, LineSettings, PageSize,
     Progress, Raster, Sight, Strokes, VisibleLines, chain, raster_of_paths, strokes_of_paths,
 };
 use crate::output::TextTarget;
 use crate::picture::{Note, Picture, Target};
 use crate::recipe::Recipe;
 use crate::record::{drawing_json, px_per_unit};
-use crate::scene::{Scene, Unseen};
+use crate::scene::{Scene, UnseenReason};
 use crate::styles::{Below, Contents, ViewAreas};
 use crate::threads::both;
 use std::path::PathBuf;
@@ -76,7 +76,8 @@ impl DrawnLines {
     /// The paths that the drawing shows, with hidden ones if it shows them.
     pub fn paths(&self) -> Vec<LinePath> {
         let mut paths = chain(&self.lines.segments);
-        let shows_hidden = |look: u32| self.lines.drawing(look, &self.resolved.contents.drawing).hidden != Hidden::None;
+        let shows_hidden =
+            |look: u32| self.lines.drawing(look, &self.resolved.contents.drawing).hidden != HiddenLines::None;
         paths.retain(|path| path.is_visible || shows_hidden(path.look));
         paths
     }
@@ -129,7 +130,9 @@ impl DrawnLines {
 /// The remark on a drawing without any visible line.
 fn no_line(scene: &Scene) -> String {
     let why = match scene.unseen(scene.size, false) {
-        unseen @ Some(Unseen::Behind | Unseen::Beside | Unseen::CutOff) => format!(": {}", reason(scene, unseen)),
+        unseen @ Some(UnseenReason::Behind | UnseenReason::Beside | UnseenReason::CutOff) => {
+            format!(": {}", reason(scene, unseen))
+        }
         _ => "; see --classes, --eye and --target".to_owned(),
     };
     format!("no line of these classes is visible in this picture{why}")
@@ -137,7 +140,7 @@ fn no_line(scene: &Scene) -> String {
 
 impl Contents {
     /// The lines to find.
-    fn to_find(&self, wanted: Wanted) -> Option<LineSettings> {
+    fn to_find(&self, wanted: WantedLines) -> Option<LineSettings> {
         self.wanted().map(|mut lines| {
             lines.finds_hidden |= wanted.all || wanted.hidden;
             lines.finds_outline |= wanted.all;
@@ -147,8 +150,8 @@ impl Contents {
     }
 
     /// Whether the lines found for these contents serve others that want more of the same lines.
-    pub fn finds_all_for(&self, other: &Self, wanted: Wanted) -> bool {
-        match (self.to_find(Wanted::default()), other.to_find(wanted)) {
+    pub fn finds_all_for(&self, other: &Self, wanted: WantedLines) -> bool {
+        match (self.to_find(WantedLines::default()), other.to_find(wanted)) {
             (Some(own), Some(others)) => {
                 own.finds_hidden >= others.finds_hidden && own.finds_outline >= others.finds_outline
             }
@@ -163,7 +166,7 @@ impl Resolved {
     /// # Errors
     ///
     /// [`Error::Setting`] for a picture of passes without exact lines; those of [`VisibleLines::with_progress`].
-    pub fn all_lines(&self, sight: &Sight<'_>, wanted: Wanted, progress: &Progress) -> Result<VisibleLines> {
+    pub fn all_lines(&self, sight: &Sight<'_>, wanted: WantedLines, progress: &Progress) -> Result<VisibleLines> {
         let (scene, Contents { below, drawing, sheet, .. }) = (&self.scene, &self.contents);
         let Some(lines) = self.contents.to_find(wanted) else {
             if let Below::Passes(style) = below {
@@ -189,7 +192,7 @@ impl Resolved {
         &self,
         sight: &Sight<'_>,
         lines: Arc<VisibleLines>,
-        wanted: Wanted,
+        wanted: WantedLines,
         progress: &Progress,
     ) -> Result<DrawnLines> {
         let (scene, contents) = (&self.scene, &self.contents);
@@ -231,7 +234,7 @@ impl Resolved {
     /// # Errors
     ///
     /// Those of [`Resolved::all_lines`] and [`Resolved::drawing`].
-    pub fn drawn_lines(&self, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
+    pub fn drawn_lines(&self, wanted: WantedLines, progress: &Progress) -> Result<DrawnLines> {
         let sight = Sight::of(&self.scene);
         // Light and shadow take one thread, and the lines leave one free at times.
         let has_tones = matches!(self.contents.below, Below::Tones(..));

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::picture::Picture;
 use crate::plan::{Geometry, Plan, Step};
 use crate::renderer::Renderer;
-use crate::scene::{Scene, Unseen};
+use crate::scene::{Scene, UnseenReason};
 use crate::values::short;
 
 /// Returns a remark if this picture, drawn by this plan as published with its shadow and lines, is all background; `None` for any
@@ -45,17 +45,17 @@ fn without_scene(plan: &Plan) -> Option<Plan> {
 }
 
 /// Why nothing is seen, and what to do.
-pub(super) fn reason(scene: &Scene, unseen: Option<Unseen>) -> String {
+pub(super) fn reason(scene: &Scene, unseen: Option<UnseenReason>) -> String {
     match unseen {
-        Some(Unseen::Behind) => "the whole model is behind the eye; see --eye and --target".to_owned(),
-        Some(Unseen::Beside) => "the model lies beside it; see --eye, --target, --fov and --height".to_owned(),
-        Some(Unseen::CutOff) => format!(
+        Some(UnseenReason::Behind) => "the whole model is behind the eye; see --eye and --target".to_owned(),
+        Some(UnseenReason::Beside) => "the model lies beside it; see --eye, --target, --fov and --height".to_owned(),
+        Some(UnseenReason::CutOff) => format!(
             "nothing lies between the near plane, {} away, and the far plane, {} away; see --near and --far",
             short(scene.camera.near),
             short(scene.camera.far)
         ),
-        Some(Unseen::TurnedAway) => "all faces in it are turned away, and --cull back leaves them out".to_owned(),
-        Some(Unseen::BetweenPixels) => {
+        Some(UnseenReason::TurnedAway) => "all faces in it are turned away, and --cull back leaves them out".to_owned(),
+        Some(UnseenReason::BetweenPixels) => {
             "no face is large enough to cover the centre of a pixel; come nearer, or give a larger --size".to_owned()
         }
         None => "what is drawn has the background's colour; see --background and --color".to_owned(),

@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// The parts to find for a drawing besides those it shows.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Wanted {
+pub struct WantedLines {
     /// Every piece of line: hidden ones, short ones, those of the outline marked.
     pub all: bool,
     /// Hidden lines, and the number of places where smooth silhouettes break.
@@ -21,7 +21,7 @@ pub struct Wanted {
     pub short: bool,
 }
 
-impl Wanted {
+impl WantedLines {
     /// The parts found for a file of this format; `is_told`: its numbers are reported.
     pub fn of(format: DrawingFormat, is_told: bool) -> Self {
         let all = matches!(format.content, DrawingContent::Data);

@@ -45,13 +45,13 @@ pub fn layers(look: Option<Look>, files: Vec<Preset>, given: Options, draws_line
 }
 
 /// A layer's options in this version's names, with the name of the file they come from, if any.
-struct Read {
+struct ReadLayer {
     options: Options,
     file: Option<Preset>,
     is_look: bool,
 }
 
-impl Read {
+impl ReadLayer {
     fn of(layer: &OptionLayer) -> Result<Self> {
         let of_file =
             |file: &Preset, is_look| Self { options: file.options.clone(), file: Some(file.clone()), is_look };
@@ -144,7 +144,7 @@ impl Request {
     /// [`Error::Setting`] for an unknown option or value, and for an option of exact lines where a picture is drawn;
     /// [`Error::File`] with the line where a file's option is refused; [`Error::Settings`] for options that exclude each other.
     pub fn from_layers(layers: &[OptionLayer]) -> Result<(Self, Vec<String>)> {
-        let read: Vec<Read> = layers.iter().map(|layer| Read::of(layer)?.check()).collect::<Result<_>>()?;
+        let read: Vec<ReadLayer> = layers.iter().map(|layer| ReadLayer::of(layer)?.check()).collect::<Result<_>>()?;
         let named = read.iter().rev().find_map(|read| match read.options.get("style") {
             Some(OptionValue::Text(style)) => style.parse().ok(),
             _ => None,

@@ -1,7 +1,7 @@
 //! A cache of the models last read. Consecutive jobs with the same model read it once.
 
 use crate::error::Result;
-use crate::mesh::{LoadOptions, LoadStage, Loaded, Mesh, load};
+use crate::mesh::{LoadOptions, LoadStage, LoadedModel, Mesh, load};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
@@ -10,7 +10,7 @@ use std::time::SystemTime;
 #[derive(Debug)]
 pub struct ModelCache {
     models: Mutex<Models>,
-    read: fn(&str, &LoadOptions) -> Result<Loaded>,
+    read: fn(&str, &LoadOptions) -> Result<LoadedModel>,
     say: fn(&str),
 }
 
@@ -35,7 +35,7 @@ impl ModelCache {
 
     /// With another reader of models, and a function that receives remarks.
     #[must_use]
-    pub fn reading(self, read: fn(&str, &LoadOptions) -> Result<Loaded>, say: fn(&str)) -> Self {
+    pub fn reading(self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
         Self { read, say, ..self }
     }
 
@@ -94,7 +94,7 @@ impl Models {
         &mut self,
         path: &str,
         options: &LoadOptions,
-        read: fn(&str, &LoadOptions) -> Result<Loaded>,
+        read: fn(&str, &LoadOptions) -> Result<LoadedModel>,
     ) -> Result<Arc<Model>> {
         let is_it = |model: &Arc<Model>| model.path == path && model.options == *options && model.is_as_it_was();
         if let Some(place) = self.kept.iter().position(is_it) {

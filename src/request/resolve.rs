@@ -1,7 +1,7 @@
 //! From a request and its models to a drawing's scene and contents: the one place that makes a scene and decides all that depends on
 //! both.
 //!
-//! Every door begins here. A still picture has its light, the view of a flat sheet, the projection of a drawing to scale and a camera
+//! Every door begins here. A still picture has its light, the view of a flat model, the projection of a drawing to scale and a camera
 //! that has the shadow in view; a moving view keeps its camera and the light chosen before.
 
 use super::{Ground, Request};
@@ -300,7 +300,7 @@ impl Resolved {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::request::{ModelCache, OptionLayer, Wanted};
+    use crate::request::{ModelCache, OptionLayer, WantedLines};
     use crate::styles::StyleName;
 
     fn request(light: &str) -> Request {
@@ -362,7 +362,7 @@ mod tests {
             let more = [("classes", "all"), ("silhouette", silhouette)];
             let asked = request_with(light, &more);
             let resolved = asked.resolve(meshes(&asked), true).unwrap();
-            let drawn = resolved.drawn_lines(Wanted::default(), &crate::lines::Progress::default()).unwrap();
+            let drawn = resolved.drawn_lines(WantedLines::default(), &crate::lines::Progress::default()).unwrap();
             assert!(!Arc::ptr_eq(&resolved.lit().objects[0].mesh, &resolved.scene.objects[0].mesh), "patches go");
             drawn.lines.segments.iter().map(|segment| (segment.class, segment.ends_px)).collect::<Vec<_>>()
         };

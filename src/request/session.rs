@@ -6,7 +6,7 @@
 use super::ModelCache;
 use crate::error::Result;
 use crate::gl::Backend;
-use crate::mesh::{LoadOptions, Loaded};
+use crate::mesh::{LoadOptions, LoadedModel};
 use crate::plan::Submission;
 use crate::renderer::Renderer;
 
@@ -44,7 +44,7 @@ impl Session {
 
     /// With another reader of models, and a function that receives remarks.
     #[must_use]
-    pub fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<Loaded>, say: fn(&str)) -> Self {
+    pub fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
         self.models = self.models.reading(read, say);
         self
     }

@@ -15,7 +15,7 @@ pub use improvements::Improvements;
 pub use pictures::{CharcoalPictures, TextureSource};
 
 use self::layout::Layout;
-use self::pictures::{Made, TextureSettings};
+use self::pictures::{CharcoalTextures, TextureSettings};
 use super::surfaces::has_doubled_faces;
 use super::textured::textured;
 use super::{Show, Supersample};
@@ -140,7 +140,7 @@ impl Charcoal {
     ///
     /// [`Error::Setting`] for textures that are too large, [`Error::File`] for a picture that cannot be read.
     pub fn textures(&self) -> Result<[Arc<Picture>; 3]> {
-        self.pictures.of(self.texture_settings()).map(|Made { noise, cet, paper, .. }| [noise, cet, paper])
+        self.pictures.of(self.texture_settings()).map(|CharcoalTextures { noise, cet, paper, .. }| [noise, cet, paper])
     }
 
     /// Returns the settings that determine its textures.

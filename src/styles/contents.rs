@@ -8,7 +8,7 @@ use super::{Cartoon, Ink, LineWidth, Mrt, Style, Tones};
 use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::lines::{
-    Areas, DrawingSettings, FillGroup, Hidden, Joined, LineSettings, Progress, ProjectionAngle, Regions, Sight,
+    Areas, DrawingSettings, FillGroup, HiddenLines, JoinKey, LineSettings, Progress, ProjectionAngle, Regions, Sight,
     Surface, ToneLight, ToneRule, TonedSurface, VisibleLines, fills, hatches, painted,
 };
 use crate::mesh::NONE;
@@ -39,7 +39,7 @@ pub enum Below {
     /// Areas of tone of each object's materials, under a far light or the listing's.
     Tones(Tones, Option<FarLight>),
     /// Areas of faces, materials or objects.
-    Joined(Joined),
+    Joined(JoinKey),
     /// Nothing.
     Nothing,
 }
@@ -144,7 +144,7 @@ impl Contents {
             Below::Passes(_) | Below::Nothing => Ok(None),
             Below::Tones(tones, light) => self.areas_of_tone((tones, *light), sight, lines, progress).map(Some),
             Below::Joined(joined) => {
-                let flat = if *joined == Joined::Material { in_flat_colors(scene)? } else { Cow::Borrowed(scene) };
+                let flat = if *joined == JoinKey::Material { in_flat_colors(scene)? } else { Cow::Borrowed(scene) };
                 let regions = whole(Regions::joined_by(&sight.of_same_faces(&flat), *joined, progress)?)?;
                 let fills =
                     painted(&regions, self.lines.is_some(), |number| joined_color(&flat, &regions, number, *joined));
@@ -202,7 +202,7 @@ impl Contents {
     pub(crate) fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = match self.below {
             Below::Tones(..) => of_averaged_normals(scene),
-            Below::Joined(Joined::Material) => Vec::new(),
+            Below::Joined(JoinKey::Material) => Vec::new(),
             _ => return Vec::new(),
         };
         if scene.objects.iter().any(|object| scene.shows_vertex_colors(&object.mesh)) {
@@ -263,7 +263,7 @@ impl Contents {
     pub(crate) fn wanted(&self) -> Option<LineSettings> {
         self.lines.as_ref().map(|lines| LineSettings {
             finds_outline: self.drawing.tells_outline(),
-            finds_hidden: self.drawing.hidden != Hidden::None || lines.parts.draw_hidden(),
+            finds_hidden: self.drawing.hidden != HiddenLines::None || lines.parts.draw_hidden(),
             ..lines.clone()
         })
     }
@@ -311,12 +311,12 @@ fn whole<T>(regions: Regions<T>) -> Result<Regions<T>> {
 }
 
 /// The colour of an area: its material's, or one for its face's or its object's number.
-fn joined_color(scene: &Scene, regions: &Regions<Option<Surface>>, number: usize, joined: Joined) -> Color {
+fn joined_color(scene: &Scene, regions: &Regions<Option<Surface>>, number: usize, joined: JoinKey) -> Color {
     let Some(Surface { object, material, face, .. }) = regions.regions[number].seen else { return Color([1.0; 3]) };
     match joined {
-        Joined::Face => numbered(face.unwrap_or_default()),
-        Joined::Material => own_color(scene, object, material.unwrap_or(NONE)),
-        Joined::Object => numbered(object),
+        JoinKey::Face => numbered(face.unwrap_or_default()),
+        JoinKey::Material => own_color(scene, object, material.unwrap_or(NONE)),
+        JoinKey::Object => numbered(object),
     }
 }
 
@@ -356,7 +356,7 @@ mod tests {
         style.drawing.class_colors.0.set_class(Class::Crease, Color([1.0, 0.0, 0.0]));
         assert!(!wanted(&style).finds_outline && !wanted(&style).finds_hidden);
         style.drawing.class_colors.0.set_outline(Color([1.0, 0.0, 0.0]));
-        style.drawing.hidden = Hidden::Dashed;
+        style.drawing.hidden = HiddenLines::Dashed;
         assert!(wanted(&style).finds_outline && wanted(&style).finds_hidden);
     }
 }

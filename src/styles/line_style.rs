@@ -1,7 +1,7 @@
 //! Exact visible lines as a style: the lines to find and how to draw them.
 
 use super::headings::no_borders;
-use crate::lines::{DrawingSettings, Joined, LineSettings, ProjectionAngle};
+use crate::lines::{DrawingSettings, JoinKey, LineSettings, ProjectionAngle};
 use crate::settings::{Setting, under, within};
 
 /// The heading of edge settings.
@@ -18,7 +18,7 @@ pub struct LineStyle {
     /// How they are drawn.
     pub drawing: DrawingSettings,
     /// By what the areas below the lines are joined. Default `None`: no areas.
-    pub areas: Option<Joined>,
+    pub areas: Option<JoinKey>,
     /// Whether the areas are drawn without lines. Default no.
     pub is_of_areas_alone: bool,
     /// The views of a sheet in place of the camera's. Default none.

@@ -7,7 +7,7 @@ use crate::scene::Size;
 use crate::window::player::{PlayedRecord, Player};
 use crate::window::replay::Replay;
 use crate::window::threads::viewer::{Viewer, ViewerOptions};
-use crate::window::values::shown::{NARROW, Shown};
+use crate::window::values::shown::{NARROW, WindowParts};
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
@@ -68,7 +68,7 @@ fn reason(message: &str) -> String {
 struct App {
     /// Until the window is there.
     viewer: Option<Viewer>,
-    shown: Option<Shown>,
+    shown: Option<WindowParts>,
     size: Size,
     player: Option<Player>,
     result: Result<()>,
@@ -112,7 +112,7 @@ impl App {
 impl ApplicationHandler<News> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         let Some(viewer) = self.viewer.take() else { return };
-        match Shown::open(event_loop, viewer, self.size, self.player.as_ref().map(Player::has_sizes)) {
+        match WindowParts::open(event_loop, viewer, self.size, self.player.as_ref().map(Player::has_sizes)) {
             Ok(shown) => {
                 shown.window.request_redraw();
                 self.shown = Some(shown);

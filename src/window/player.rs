@@ -5,7 +5,7 @@ use crate::picture::{Target, write_rgba_png};
 use crate::record::Summary;
 use crate::renderer::milliseconds_since;
 use crate::window::replay::Replay;
-use crate::window::values::shown::Shown;
+use crate::window::values::shown::WindowParts;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -84,7 +84,7 @@ impl Player {
     /// # Errors
     ///
     /// [`Error::Setting`] for an invalid event and for drawing failures, and the errors of writing pictures.
-    pub(super) fn play(&mut self, shown: &mut Shown) -> Result<bool> {
+    pub(super) fn play(&mut self, shown: &mut WindowParts) -> Result<bool> {
         self.times.scale = shown.scale();
         if self.is_free {
             self.play_free(shown)?;
@@ -143,7 +143,7 @@ impl Player {
     }
 
     /// A frame that continues the work of the one before it.
-    fn play_free(&mut self, shown: &mut Shown) -> Result<()> {
+    fn play_free(&mut self, shown: &mut WindowParts) -> Result<()> {
         let start = Instant::now();
         shown.viewer.take_reports()?;
         shown.frame(false)?;
@@ -156,7 +156,7 @@ impl Player {
     }
 
     /// A frame of a drag: waits until its picture is begun, and shows the newest one.
-    fn drag(&mut self, shown: &mut Shown) -> Result<()> {
+    fn drag(&mut self, shown: &mut WindowParts) -> Result<()> {
         let viewer = &mut shown.viewer;
         let (number, since) = *self.dragged.get_or_insert_with(|| (viewer.picture_number, Instant::now()));
         viewer.take_reports()?;

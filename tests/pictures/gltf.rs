@@ -5,7 +5,7 @@ use crate::support::{Folder, public_models, renderer, scene_of_mesh, skip};
 use glam::{DVec2, DVec3, dvec3};
 use serde_json::{Value, json};
 use std::sync::Arc;
-use tinta::mesh::{Loaded, NONE};
+use tinta::mesh::{LoadedModel, NONE};
 use tinta::scene::Surface;
 use tinta::{Backend, CameraSettings, LoadOptions, Mesh, Scene, SceneSettings, Size, Style, StyleName, load};
 
@@ -18,7 +18,7 @@ fn the_same_box_comes_out_of_json_with_a_file_or_with_its_data_and_out_of_glb() 
     assert_eq!(loaded.files, [std::path::PathBuf::from(folder.path("a box.bin"))]);
     let binary = load(&folder.file("box.glb", &file.binary()), &LoadOptions::default()).unwrap();
     let text = load(&folder.file("text.gltf", &file.text()), &LoadOptions::default()).unwrap();
-    for Loaded { mesh, remarks, .. } in [&loaded, &binary, &text] {
+    for LoadedModel { mesh, remarks, .. } in [&loaded, &binary, &text] {
         assert_eq!((mesh.positions.len(), mesh.triangles.len(), mesh.normals.len()), (8, 12, 24));
         assert!(mesh.positions.iter().all(|position| position.abs() == DVec3::ONE));
         assert_eq!(volume(mesh), 8.0);
@@ -192,7 +192,7 @@ fn nodes_move_turn_scale_and_mirror_what_is_below_them() {
         file.push("scenes", json!({"nodes": [2]}));
         file.push("scenes", json!({"nodes": [0]}));
         file.json["scene"] = json!(1);
-        let Loaded { mesh, remarks, .. } = file.load().unwrap();
+        let LoadedModel { mesh, remarks, .. } = file.load().unwrap();
         assert_eq!(remarks, ["file.gltf: not drawn: 1 other scene"]);
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (8, 12));
         // (x, y, z) goes to (-y, 2 (x + 3), z + 5), with the mirror to (-y, -2 (x + 3), z + 5).

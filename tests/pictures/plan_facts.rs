@@ -5,7 +5,7 @@ use crate::prune::{beside, every_rule};
 use crate::support::{BACKENDS, renderer, root, scene};
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
-use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
+use tinta::plan::prune::{PrunedPlan, Pruning, Rule, prune};
 use tinta::plan::{Draw, Facts, Plan, Program, Step, Target};
 use tinta::styles::{Cartoon, Charcoal, Dietrich, Ink, MapEncoding, Mrt};
 use tinta::{Error, Renderer, Scene, Show, Style, StyleName};
@@ -29,7 +29,7 @@ fn draws_mut(plan: &mut Plan) -> impl Iterator<Item = &mut Draw> {
     steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None })
 }
 
-fn left_out(pruned: &Pruned) -> Vec<Rule> {
+fn left_out(pruned: &PrunedPlan) -> Vec<Rule> {
     pruned.omissions.iter().map(|omission| omission.rule).collect()
 }
 
@@ -59,15 +59,15 @@ fn a_border_shader_replaced_by_one_that_inks_all_of_the_picture_inks_all_of_it()
 }
 
 /// A replaced shader, with a style and a scene whose pruned plan would draw something else if the replacement did not count.
-struct Replaced {
+struct ReplacedShader {
     path: &'static str,
     text: String,
     style: Style,
     scene: Scene,
 }
 
-fn replaced(path: &'static str, text: &str, style: Style) -> Replaced {
-    Replaced { path, text: text.to_owned(), style, scene: far_away("builtin:gear") }
+fn replaced(path: &'static str, text: &str, style: Style) -> ReplacedShader {
+    ReplacedShader { path, text: text.to_owned(), style, scene: far_away("builtin:gear") }
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
         // Objects are drawn where the camera does not have them.
         replaced("evangelista/map.vert", &scaled("evangelista/map.vert", "3.0"), three.clone()),
         replaced("improved/two-targets.vert", &scaled("improved/two-targets.vert", "3.0"), Style::Mrt(Mrt::default())),
-        Replaced {
+        ReplacedShader {
             scene: beside("builtin:bust"),
             ..replaced("evangelista/toon.vert", &scaled("evangelista/toon.vert", "0.2"), three)
         },
@@ -101,7 +101,7 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
         replaced("valente/paper.frag", holed, Style::Charcoal(Charcoal::default())),
     ];
     let mut renderer = renderer(BACKENDS[0]);
-    for Replaced { path, text, style, scene } in cases {
+    for ReplacedShader { path, text, style, scene } in cases {
         replace(&mut renderer, path, &text);
         let plan = style.plan(&scene, Show::Final).unwrap();
         let full = renderer.draw(&scene, &plan).unwrap();

@@ -4,7 +4,7 @@ use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::lines::Length;
-use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
+use tinta::plan::prune::{PrunedPlan, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
 use tinta::styles::{
     Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, MapTarget, Phong, Quality,
@@ -20,13 +20,13 @@ pub fn every_rule() -> Pruning {
     Pruning { subpixel_bits: 8, ..Pruning::default() }
 }
 
-fn pruned(scene: &Scene, style: &Style) -> Pruned {
+fn pruned(scene: &Scene, style: &Style) -> PrunedPlan {
     prune(&style.plan(scene, Show::Final).unwrap(), scene, &every_rule())
 }
 
 /// Whether the rule left something out.
 fn applies(rule: Rule, scene: &Scene, style: &Style) -> bool {
-    let Pruned { omissions, kept, .. } = pruned(scene, style);
+    let PrunedPlan { omissions, kept, .. } = pruned(scene, style);
     let found: Vec<&str> = omissions.iter().filter(|one| one.rule == rule).map(|one| one.what.as_str()).collect();
     let reasons: Vec<&str> = kept.iter().filter(|one| one.rule == rule).map(|one| one.reason.as_str()).collect();
     assert_eq!(found.len() + reasons.len(), 1, "each rule says what it did or why it did not: {rule}");
@@ -118,7 +118,7 @@ fn a_picture_of_nothing_needs_no_filter() {
     let mut scene = scene("builtin:gear", 64, 64);
     scene.camera.eye = scene.centre + DVec3::Z * scene.radius * 5.0;
     scene.camera.target = scene.camera.eye + DVec3::Z;
-    let Pruned { plan, .. } = pruned(&scene, &cartoon(|_| {}));
+    let PrunedPlan { plan, .. } = pruned(&scene, &cartoon(|_| {}));
     assert_eq!(plan.steps().count(), 1, "{plan}");
     let mut renderer = renderer(BACKENDS[0]);
     let picture = renderer.draw(&scene, &plan).unwrap();

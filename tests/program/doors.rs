@@ -12,7 +12,7 @@ use tinta::cli::render::asked_by;
 use tinta::lines::DrawingFormat;
 use tinta::lines::Progress;
 use tinta::recipe::{Driver, FileRecord};
-use tinta::request::{Request, Resolved, Session, Wanted};
+use tinta::request::{Request, Resolved, Session, WantedLines};
 use tinta::{Picture, StyleName};
 
 /// A model's name, the ending of the file, and options.
@@ -63,7 +63,7 @@ fn file(drawn: &Resolved, beside: &[PathBuf], format: Option<DrawingFormat>, ses
     if let Some(format) = format {
         let has_recipe = !format.is_of_lines_alone;
         let recipe = has_recipe.then(|| recipe(None));
-        let lines = drawn.drawn_lines(Wanted::of(format, false), &Progress::default()).unwrap();
+        let lines = drawn.drawn_lines(WantedLines::of(format, false), &Progress::default()).unwrap();
         return lines.written(format, None, recipe.as_ref()).unwrap().bytes().unwrap();
     }
     let renderer = request.renderer(session).unwrap();

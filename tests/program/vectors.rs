@@ -5,7 +5,7 @@ use crate::rendered::rendered;
 use crate::support::{BACKENDS, public_meshes, renderer, scene_with};
 use std::sync::Arc;
 use tinta::lines::{
-    Areas, FillGroup, Joined, Progress, Regions, SeenNormals, Sight, first_hits, painted, svg_of_paths,
+    Areas, FillGroup, JoinKey, Progress, Regions, SeenNormals, Sight, first_hits, painted, svg_of_paths,
 };
 use tinta::mesh::Normals;
 use tinta::styles::{Cartoon, FarLight, Ink, LineStyle, Tones};
@@ -155,7 +155,7 @@ fn outlines_of_objects_are_masks() {
     let ground = Color([1.0; 3]);
     let settings = SceneSettings { background: Background::Color(ground), copies: 4, ..SceneSettings::default() };
     let scene = scene_with("builtin:bust", settings);
-    let style = LineStyle { areas: Some(Joined::Object), is_of_areas_alone: true, ..LineStyle::default() };
+    let style = LineStyle { areas: Some(JoinKey::Object), is_of_areas_alone: true, ..LineStyle::default() };
     let vectors = Style::Lines(style).vectors(scene.size).unwrap();
     let lines = VisibleLines::none(scene.size);
     let fills = vectors.areas(&Sight::of(&scene), &lines, &Progress::default()).unwrap().unwrap().drawn.fills;
@@ -181,9 +181,9 @@ fn outlines_of_objects_are_masks() {
 fn no_ground_shines_through_between_faces() {
     let settings = SceneSettings { background: Background::Color(Color([1.0, 0.0, 1.0])), ..SceneSettings::default() };
     let scene = scene_with("builtin:bust", settings);
-    let regions = Regions::joined_by(&Sight::of(&scene), Joined::Face, &Progress::default()).unwrap();
+    let regions = Regions::joined_by(&Sight::of(&scene), JoinKey::Face, &Progress::default()).unwrap();
     let grey = |has_traps: bool| svg_of(&scene, of_fills(painted(&regions, has_traps, |_| Color([0.5; 3]))));
-    let objects = Regions::joined_by(&Sight::of(&scene), Joined::Object, &Progress::default()).unwrap();
+    let objects = Regions::joined_by(&Sight::of(&scene), JoinKey::Object, &Progress::default()).unwrap();
     let whole = svg_of(&scene, of_fills(painted(&objects, true, |_| Color([0.5; 3]))));
     let smoothed = grey(false).replace("shape-rendering", "data-not");
     for zoom in [0.5, 1.0, 2.5] {

@@ -3,7 +3,7 @@
 use base64::Engine;
 use glam::DVec3;
 use serde_json::{Value, json};
-use tinta::mesh::{Loaded, read_bytes};
+use tinta::mesh::{LoadedModel, read_bytes};
 use tinta::{LoadOptions, Mesh, Result};
 
 /// A glTF file as it grows.
@@ -75,7 +75,7 @@ impl File {
         glb(self.with_buffer(None), &self.data)
     }
 
-    pub fn load(&self) -> Result<Loaded> {
+    pub fn load(&self) -> Result<LoadedModel> {
         read_bytes(&self.text(), "file.gltf", &[], &LoadOptions::default())
     }
 

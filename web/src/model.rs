@@ -5,9 +5,9 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tinta::lines::{DrawingFormat, Progress};
-use tinta::mesh::{Loaded, load, read_bytes};
+use tinta::mesh::{LoadedModel, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
-use tinta::request::{DrawingFile, OptionLayer, Request, Resolved, Wanted};
+use tinta::request::{DrawingFile, OptionLayer, Request, Resolved, WantedLines};
 use tinta::settings::Options;
 use tinta::{LineSettings, Mesh, Recipe, Scene, StyleName};
 use tinta_lab::measure::{Ink, Reference};
@@ -73,7 +73,7 @@ impl Model {
         Ok(Self::of(name.to_owned(), loaded, records))
     }
 
-    fn of(name: String, loaded: Loaded, files: Vec<FileRecord>) -> Self {
+    fn of(name: String, loaded: LoadedModel, files: Vec<FileRecord>) -> Self {
         Self { name, mesh: Arc::new(loaded.mesh), remarks: loaded.remarks, files }
     }
 
@@ -92,7 +92,7 @@ impl Model {
         let request = self.request(StyleName::Lines, options)?;
         let resolved = request.resolve(vec![self.mesh.clone()], true).map_err(said)?;
         let recipe = has_recipe.then(|| self.recipe(&resolved, None));
-        let drawn = resolved.drawn_lines(Wanted::default(), &Progress::default()).map_err(said)?;
+        let drawn = resolved.drawn_lines(WantedLines::default(), &Progress::default()).map_err(said)?;
         let bytes =
             drawn.written(DrawingFormat::SVG, None, recipe.as_ref()).and_then(DrawingFile::bytes).map_err(said)?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())

@@ -79,7 +79,7 @@ pub use drawing::page::{PageSize, Paper, Sheet, Turn};
 #[doc(hidden)]
 pub use drawing::painted::painted;
 pub use drawing::scale::{ModelUnit, Scale};
-pub use drawing::settings::{DrawingSettings, Hidden};
+pub use drawing::settings::{DrawingSettings, HiddenLines};
 pub use parts::rules::{PartRule, PartRules};
 #[doc(hidden)]
 pub use parts::scene_parts::ScenePart;
@@ -87,7 +87,7 @@ pub use parts::style::{PartRole, PartStyle};
 pub use progress::{Phase, Progress};
 #[doc(hidden)]
 pub use regions::{
-    Joined, LIGHTS, Region, Regions, SeenFace, SeenNormals, Surface, ToneLight, ToneRule, TonedSurface, ground_light,
+    JoinKey, LIGHTS, Region, Regions, SeenFace, SeenNormals, Surface, ToneLight, ToneRule, TonedSurface, ground_light,
     ground_shadow,
 };
 pub use segment::LineSegment;

@@ -66,15 +66,17 @@ pub(crate) fn refusal(needed: u64, free: Option<u64>) -> Option<String> {
 
 /// The work of a drawing: the setting that names it, its name in a sentence, and how to ask for less.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Asked([&'static str; 3]);
+pub(crate) struct DrawingWork([&'static str; 3]);
 
 /// The kinds of work on a drawing.
-pub(crate) const LINES: Asked = Asked(["classes", "lines", "ask for fewer, for instance without intersection"]);
-pub(crate) const AREAS: Asked = Asked(["areas", "areas", "draw fewer or simpler models at once"]);
-pub(crate) const TONES: Asked = Asked(["tones", "areas of tone", "draw fewer or simpler models at once"]);
-pub(crate) const STROKES: Asked = Asked(["hatch", "strokes", "choose a wider spacing, or draw fewer models at once"]);
+pub(crate) const LINES: DrawingWork =
+    DrawingWork(["classes", "lines", "ask for fewer, for instance without intersection"]);
+pub(crate) const AREAS: DrawingWork = DrawingWork(["areas", "areas", "draw fewer or simpler models at once"]);
+pub(crate) const TONES: DrawingWork = DrawingWork(["tones", "areas of tone", "draw fewer or simpler models at once"]);
+pub(crate) const STROKES: DrawingWork =
+    DrawingWork(["hatch", "strokes", "choose a wider spacing, or draw fewer models at once"]);
 
-impl Asked {
+impl DrawingWork {
     /// Rejects work that needs more bytes than are free.
     ///
     /// # Errors

@@ -62,10 +62,10 @@ pub use format::{Format, is_model_name};
 pub use frame::ModelFrame;
 #[cfg(feature = "gltf")]
 pub use gltf::camera as gltf_camera;
-pub use load::{Loaded, load, load_watched, read_as, read_bytes, refuse_address};
+pub use load::{LoadedModel, load, load_watched, read_as, read_bytes, refuse_address};
 pub use options::{LoadOptions, LoadStage, Normals, UpAxis};
-pub(crate) use pattern::Named;
 pub use pattern::Pattern;
+pub(crate) use pattern::PatternMatches;
 pub(crate) use section::double_area;
 pub use section::{Cut, SECTION, SectionPlane, SectionPlanes};
 pub(crate) use shells::Shells;

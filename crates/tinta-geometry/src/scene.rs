@@ -31,7 +31,7 @@ mod unseen;
 mod vertex_boxes;
 
 pub use crate::values::{Background, Color, Rectangle, Size};
-pub use unseen::Unseen;
+pub use unseen::UnseenReason;
 
 use crate::camera::{Camera, CameraSettings, Projection, View};
 use crate::curvature::{Curvatures, KeptCurvatures};
@@ -193,8 +193,8 @@ impl SceneSettings {
 /// The default colour of models without one: a light, warm clay that shows all three tones.
 pub(crate) const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
 
-/// The thickness of a flat sheet, as a share of its length.
-const SHEET: f64 = 1e-3;
+/// The thickness of a flat model, as a share of its length.
+const FLATNESS: f64 = 1e-3;
 
 /// The least height of an upright figure, as a share of its largest extent. What is lower shows its form from above.
 const UPRIGHT: f64 = 2.0 / 3.0;
@@ -299,11 +299,11 @@ impl Scene {
         self.objects.iter().any(|object| object.offset.y + object.mesh.bounds().0.y <= ground && object.mesh.stands())
     }
 
-    /// The view that suits the objects in place of one chosen for any: along the normal of a flat sheet, whose true shape it shows;
+    /// The view that suits the objects in place of one chosen for any: along the normal of a flat model, whose true shape it shows;
     /// less from above for an upright figure, whose forehead would hide its face.
     pub fn suited(&self, view: View) -> View {
         let extent = self.extent();
-        if let Some(thin) = (0..3).find(|axis| extent[*axis] <= SHEET * extent.max_element()) {
+        if let Some(thin) = (0..3).find(|axis| extent[*axis] <= FLATNESS * extent.max_element()) {
             return ["right", "top", "front"][thin].parse().unwrap_or(view);
         }
         if extent.y < UPRIGHT * extent.max_element() {
@@ -570,7 +570,7 @@ mod tests {
     }
 
     #[test]
-    fn an_upright_figure_is_seen_from_lower_and_a_sheet_along_its_normal() {
+    fn an_upright_figure_is_seen_from_lower_and_a_flat_model_along_its_normal() {
         let suited = |name: &str, turn: fn(DVec3) -> DVec3, view: &str| {
             let mut mesh = load(name, &LoadOptions::default()).unwrap().mesh;
             mesh.positions.iter_mut().for_each(|place| *place = turn(*place));

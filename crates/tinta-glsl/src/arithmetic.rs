@@ -29,10 +29,10 @@ impl Precision {
 }
 
 /// What went wrong, without its line.
-type Computed = Result<Value, String>;
+type ValueResult = Result<Value, String>;
 
 /// Carries out a unary operator.
-pub(crate) fn unary(operator: &str, operand: Value) -> Computed {
+pub(crate) fn unary(operator: &str, operand: Value) -> ValueResult {
     match (operator, operand.of.base) {
         ("-", Base::Float | Base::Int) => Ok(operand.map(|number| -number)),
         ("+", Base::Float | Base::Int) => Ok(operand),
@@ -42,7 +42,7 @@ pub(crate) fn unary(operator: &str, operand: Value) -> Computed {
 }
 
 /// Carries out a binary operator, except those of bools, which may skip their second operand.
-pub(crate) fn binary(operator: &str, left: Value, right: Value, precision: Precision) -> Computed {
+pub(crate) fn binary(operator: &str, left: Value, right: Value, precision: Precision) -> ValueResult {
     let refuse = || Err(format!("{operator} cannot be used with {} and {}", left.of, right.of));
     match operator {
         "==" | "!=" => {
@@ -151,7 +151,7 @@ fn sum(terms: impl Iterator<Item = f64>, precision: Precision) -> f64 {
 }
 
 /// Calls a constructor: `vec4(…)`, `float(…)`, `mat3(…)`.
-pub(crate) fn construct(of: Type, arguments: &[Value]) -> Computed {
+pub(crate) fn construct(of: Type, arguments: &[Value]) -> ValueResult {
     let given: Vec<f64> = arguments.iter().flat_map(|value| value.numbers().to_vec()).collect();
     let numbers = match (arguments, of) {
         ([one], _) if one.of.is_scalar() && of.is_matrix() => {
@@ -219,7 +219,7 @@ const OF_NUMBERS: [(&str, usize, OfNumbers); 29] = [
 ];
 
 /// Calls a built-in function; `None` if none has this name.
-pub(crate) fn call(name: &str, arguments: &[Value], precision: Precision) -> Option<Computed> {
+pub(crate) fn call(name: &str, arguments: &[Value], precision: Precision) -> Option<ValueResult> {
     let floats: Vec<Value> = arguments.iter().map(|value| promoted(*value, Type::FLOAT)).collect();
     let wrong = || format!("{name} cannot be called with these arguments");
     let each = |count: usize, function: &dyn Fn(&[f64]) -> f64| {

@@ -32,7 +32,7 @@ enum Flow {
     Return(Option<Value>),
 }
 
-type Stepped<T> = Result<T, Stop>;
+type StepResult<T> = Result<T, Stop>;
 
 /// A stage while it runs.
 struct Machine<'a> {
@@ -76,7 +76,7 @@ pub(crate) fn run(
 }
 
 impl<'a> Machine<'a> {
-    fn start(&mut self) -> Stepped<()> {
+    fn start(&mut self) -> StepResult<()> {
         let program = self.program;
         for (number, shader) in program.shaders.iter().enumerate() {
             self.variables.shader = number;
@@ -99,12 +99,12 @@ impl<'a> Machine<'a> {
         self.run_body(main).map(drop)
     }
 
-    fn fail<T>(&self, line: u32, problem: impl Into<String>) -> Stepped<T> {
+    fn fail<T>(&self, line: u32, problem: impl Into<String>) -> StepResult<T> {
         let path = self.program.shaders[self.variables.shader].path.clone();
         Err(Stop::Mistake(Box::new(Mistake { path, line, problem: problem.into() })))
     }
 
-    fn computed(&self, line: u32, value: Result<Value, String>) -> Stepped<Value> {
+    fn computed(&self, line: u32, value: Result<Value, String>) -> StepResult<Value> {
         value.or_else(|problem| self.fail(line, problem))
     }
 
@@ -132,12 +132,12 @@ impl<'a> Machine<'a> {
     }
 
     /// Returns a value as this type, an int as a float where needed.
-    fn fitting(&self, value: Value, of: Type, line: u32) -> Stepped<Value> {
+    fn fitting(&self, value: Value, of: Type, line: u32) -> StepResult<Value> {
         let value = promoted(value, of);
         if value.of == of { Ok(value) } else { self.fail(line, format!("{of} cannot hold {}", value.of)) }
     }
 
-    fn run_body(&mut self, function: &'a Function) -> Stepped<Option<Value>> {
+    fn run_body(&mut self, function: &'a Function) -> StepResult<Option<Value>> {
         match self.block(function.body.as_deref().unwrap_or_default())? {
             Flow::Return(value) => Ok(value),
             _ => Ok(None),
@@ -145,7 +145,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Runs statements; what they declare ends with them.
-    fn block(&mut self, statements: &'a [Statement]) -> Stepped<Flow> {
+    fn block(&mut self, statements: &'a [Statement]) -> StepResult<Flow> {
         let count = self.variables.count();
         let mut flow = Flow::Next;
         for statement in statements {
@@ -158,7 +158,7 @@ impl<'a> Machine<'a> {
         Ok(flow)
     }
 
-    fn statement(&mut self, statement: &'a Statement) -> Stepped<Flow> {
+    fn statement(&mut self, statement: &'a Statement) -> StepResult<Flow> {
         let line = statement.line;
         self.statements += 1;
         if self.statements > MOST_STATEMENTS {
@@ -211,7 +211,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn repeat(&mut self, parts: &'a Loop) -> Stepped<Flow> {
+    fn repeat(&mut self, parts: &'a Loop) -> StepResult<Flow> {
         if let Some(before) = &parts.before {
             self.statement(before)?;
         }
@@ -239,7 +239,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn condition(&mut self, expression: &'a Expression) -> Stepped<bool> {
+    fn condition(&mut self, expression: &'a Expression) -> StepResult<bool> {
         let value = self.evaluate(expression)?;
         if value.of == Type::BOOL {
             Ok(value.is_true())
@@ -248,7 +248,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn evaluate(&mut self, expression: &'a Expression) -> Stepped<Value> {
+    fn evaluate(&mut self, expression: &'a Expression) -> StepResult<Value> {
         let line = expression.line;
         let precision = self.settings.precision;
         match &expression.kind {
@@ -303,7 +303,7 @@ impl<'a> Machine<'a> {
     }
 
     /// An operator of bools, which may skip its second operand.
-    fn logical(&mut self, operator: &str, left: &'a Expression, right: &'a Expression) -> Stepped<Value> {
+    fn logical(&mut self, operator: &str, left: &'a Expression, right: &'a Expression) -> StepResult<Value> {
         let left = self.condition(left)?;
         match operator {
             "&&" if !left => Ok(Value::bool(false)),
@@ -320,7 +320,7 @@ impl<'a> Machine<'a> {
         target: &'a Expression,
         value: &'a Expression,
         line: u32,
-    ) -> Stepped<Value> {
+    ) -> StepResult<Value> {
         let mut value = self.evaluate(value)?;
         let place = self.place(target)?;
         if let Some(operator) = operator {
@@ -332,7 +332,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Returns some components of a value, as a vector.
-    fn part(&self, of: &Value, places: &[usize], line: u32) -> Stepped<Value> {
+    fn part(&self, of: &Value, places: &[usize], line: u32) -> StepResult<Value> {
         let numbers: Option<Vec<f64>> = places.iter().map(|place| of.numbers().get(*place).copied()).collect();
         match numbers {
             Some(numbers) => Ok(Value::new(Type::vector(of.of.base, numbers.len() as u8), &numbers)),
@@ -341,7 +341,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Returns the places of a vector's component or a matrix's column.
-    fn indexed(&self, of: Type, index: Value, line: u32) -> Stepped<Vec<usize>> {
+    fn indexed(&self, of: Type, index: Value, line: u32) -> StepResult<Vec<usize>> {
         let length = if of.is_matrix() { usize::from(of.rows) } else { 1 };
         let first = index.first() * length as f64;
         if index.of != Type::INT || of.is_scalar() || first < 0.0 || first as usize >= of.count() {
@@ -351,7 +351,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Finds the variable that an expression names.
-    fn place(&mut self, expression: &'a Expression) -> Stepped<Place> {
+    fn place(&mut self, expression: &'a Expression) -> StepResult<Place> {
         let line = expression.line;
         match &expression.kind {
             ExpressionKind::Variable(name) => {
@@ -372,21 +372,21 @@ impl<'a> Machine<'a> {
     }
 
     /// Returns some components of a place.
-    fn narrowed(&self, place: Place, places: &[usize], line: u32) -> Stepped<Place> {
+    fn narrowed(&self, place: Place, places: &[usize], line: u32) -> StepResult<Place> {
         let of = self.variables.value(&place).of;
         let narrowed = self.variables.narrowed(place, places);
         narrowed.map_or_else(|| self.fail(line, format!("{of} has no such component")), Ok)
     }
 
-    fn set(&mut self, place: &Place, value: Value, line: u32) -> Stepped<()> {
+    fn set(&mut self, place: &Place, value: Value, line: u32) -> StepResult<()> {
         let value = self.fitting(value, self.variables.value(place).of, line)?;
         let (name, whole) = self.variables.set(place, value);
         self.record_set(line, name, whole);
         Ok(())
     }
 
-    fn call(&mut self, name: &'a str, arguments: &'a [Expression], line: u32) -> Stepped<Value> {
-        let values: Vec<Value> = arguments.iter().map(|argument| self.evaluate(argument)).collect::<Stepped<_>>()?;
+    fn call(&mut self, name: &'a str, arguments: &'a [Expression], line: u32) -> StepResult<Value> {
+        let values: Vec<Value> = arguments.iter().map(|argument| self.evaluate(argument)).collect::<StepResult<_>>()?;
         let precision = self.settings.precision;
         if let Some(of) = Type::named(name) {
             return self.computed(line, construct(of, &values));
@@ -450,7 +450,7 @@ impl<'a> Machine<'a> {
         arguments: &'a [Expression],
         values: Vec<Value>,
         line: u32,
-    ) -> Stepped<Value> {
+    ) -> StepResult<Value> {
         if self.calls >= DEEPEST_CALL {
             return self.fail(line, format!("{} calls itself", function.name));
         }

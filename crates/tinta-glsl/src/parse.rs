@@ -23,10 +23,10 @@ const COMPONENTS: [&str; 3] = ["xyzw", "rgba", "stpq"];
 /// How deep brackets, blocks and operators may stand within each other.
 const DEEPEST: u32 = 200;
 
-type Parsed<T> = Result<T, Mistake>;
+type ParseResult<T> = Result<T, Mistake>;
 
 /// Parses a shader; `path` names it in messages.
-pub(crate) fn parse(path: &str, text: &str) -> Parsed<Shader> {
+pub(crate) fn parse(path: &str, text: &str) -> ParseResult<Shader> {
     let mut parser = Parser { path, lexemes: lexemes(path, text)?, place: 0, depth: 0 };
     let mut shader = Shader { path: path.to_owned(), globals: Vec::new(), functions: Vec::new() };
     while parser.place < parser.lexemes.len() {
@@ -52,7 +52,7 @@ impl Parser<'_> {
         self.lexemes.get(place).map_or(1, |lexeme| lexeme.line)
     }
 
-    fn fail<T>(&self, problem: impl Into<String>) -> Parsed<T> {
+    fn fail<T>(&self, problem: impl Into<String>) -> ParseResult<T> {
         Err(Mistake { path: self.path.to_owned(), line: self.line(), problem: problem.into() })
     }
 
@@ -63,7 +63,7 @@ impl Parser<'_> {
         is_next
     }
 
-    fn expect(&mut self, text: &str) -> Parsed<()> {
+    fn expect(&mut self, text: &str) -> ParseResult<()> {
         if self.takes(text) {
             return Ok(());
         }
@@ -73,7 +73,7 @@ impl Parser<'_> {
         }
     }
 
-    fn name(&mut self) -> Parsed<String> {
+    fn name(&mut self) -> ParseResult<String> {
         match self.lexemes.get(self.place) {
             Some(Lexeme { kind: Kind::Word, text, .. }) => {
                 self.place += 1;
@@ -87,7 +87,7 @@ impl Parser<'_> {
         self.text() == "const" || Type::named(self.text()).is_some()
     }
 
-    fn type_name(&mut self) -> Parsed<Type> {
+    fn type_name(&mut self) -> ParseResult<Type> {
         let name = self.name()?;
         match Type::named(&name) {
             Some(of) => Ok(of),
@@ -98,7 +98,7 @@ impl Parser<'_> {
         }
     }
 
-    fn outer_declaration(&mut self, shader: &mut Shader) -> Parsed<()> {
+    fn outer_declaration(&mut self, shader: &mut Shader) -> ParseResult<()> {
         while self.takes("invariant") || self.takes("centroid") {}
         let line = self.line();
         let storage = match self.text() {
@@ -128,11 +128,11 @@ impl Parser<'_> {
         }
     }
 
-    fn refuse_array(&self) -> Parsed<()> {
+    fn refuse_array(&self) -> ParseResult<()> {
         if self.text() == "[" { self.fail("arrays of a shader's own are not understood") } else { Ok(()) }
     }
 
-    fn parameters(&mut self) -> Parsed<Vec<Parameter>> {
+    fn parameters(&mut self) -> ParseResult<Vec<Parameter>> {
         let mut parameters = Vec::new();
         if self.text() == "void" {
             self.place += 1;
@@ -158,7 +158,7 @@ impl Parser<'_> {
     }
 
     /// Runs a part of the parser one level deeper.
-    fn deeper<T>(&mut self, part: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
+    fn deeper<T>(&mut self, part: impl FnOnce(&mut Self) -> ParseResult<T>) -> ParseResult<T> {
         if self.depth >= DEEPEST {
             return self.fail(format!("more than {DEEPEST} brackets, blocks and operators stand within each other"));
         }
@@ -168,7 +168,7 @@ impl Parser<'_> {
         parsed
     }
 
-    fn block(&mut self) -> Parsed<Vec<Statement>> {
+    fn block(&mut self) -> ParseResult<Vec<Statement>> {
         self.expect("{")?;
         let mut statements = Vec::new();
         while !self.takes("}") {
@@ -177,7 +177,7 @@ impl Parser<'_> {
         Ok(statements)
     }
 
-    fn statement(&mut self) -> Parsed<Statement> {
+    fn statement(&mut self) -> ParseResult<Statement> {
         let line = self.line();
         let word = self.text().to_owned();
         if word == "{" {
@@ -196,7 +196,7 @@ impl Parser<'_> {
             self.expect(";")?;
             return Ok(Statement { line, kind });
         }
-        let keyword: fn(&mut Self) -> Parsed<StatementKind> = match word.as_str() {
+        let keyword: fn(&mut Self) -> ParseResult<StatementKind> = match word.as_str() {
             "if" => Self::branch,
             "for" => Self::for_loop,
             "while" => Self::while_loop,
@@ -208,14 +208,14 @@ impl Parser<'_> {
         Ok(Statement { line, kind: keyword(self)? })
     }
 
-    fn branch(&mut self) -> Parsed<StatementKind> {
+    fn branch(&mut self) -> ParseResult<StatementKind> {
         let condition = self.in_brackets()?;
         let then = Box::new(self.deeper(Self::statement)?);
         let otherwise = if self.takes("else") { Some(Box::new(self.deeper(Self::statement)?)) } else { None };
         Ok(StatementKind::If(condition, then, otherwise))
     }
 
-    fn for_loop(&mut self) -> Parsed<StatementKind> {
+    fn for_loop(&mut self) -> ParseResult<StatementKind> {
         self.expect("(")?;
         let before = if self.takes(";") { None } else { Some(Box::new(self.simple_statement()?)) };
         let condition = if self.text() == ";" { None } else { Some(self.expression()?) };
@@ -226,13 +226,13 @@ impl Parser<'_> {
         Ok(StatementKind::Loop(Loop { before, condition, after, body, begins_with_body: false }))
     }
 
-    fn while_loop(&mut self) -> Parsed<StatementKind> {
+    fn while_loop(&mut self) -> ParseResult<StatementKind> {
         let condition = Some(self.in_brackets()?);
         let body = Box::new(self.deeper(Self::statement)?);
         Ok(StatementKind::Loop(Loop { before: None, condition, after: None, body, begins_with_body: false }))
     }
 
-    fn do_loop(&mut self) -> Parsed<StatementKind> {
+    fn do_loop(&mut self) -> ParseResult<StatementKind> {
         let body = Box::new(self.deeper(Self::statement)?);
         self.expect("while")?;
         let condition = Some(self.in_brackets()?);
@@ -240,13 +240,13 @@ impl Parser<'_> {
         Ok(StatementKind::Loop(Loop { before: None, condition, after: None, body, begins_with_body: true }))
     }
 
-    fn return_statement(&mut self) -> Parsed<StatementKind> {
+    fn return_statement(&mut self) -> ParseResult<StatementKind> {
         let value = if self.text() == ";" { None } else { Some(self.expression()?) };
         self.expect(";")?;
         Ok(StatementKind::Return(value))
     }
 
-    fn in_brackets(&mut self) -> Parsed<Expression> {
+    fn in_brackets(&mut self) -> ParseResult<Expression> {
         self.expect("(")?;
         let inside = self.expression()?;
         self.expect(")")?;
@@ -254,7 +254,7 @@ impl Parser<'_> {
     }
 
     /// A declaration or an expression, with its semicolon.
-    fn simple_statement(&mut self) -> Parsed<Statement> {
+    fn simple_statement(&mut self) -> ParseResult<Statement> {
         let line = self.line();
         let is_constructor = self.lexemes.get(self.place + 1).is_some_and(|next| next.text == "(");
         if !self.next_is_type() || is_constructor {
@@ -276,7 +276,7 @@ impl Parser<'_> {
         }
     }
 
-    fn expression(&mut self) -> Parsed<Expression> {
+    fn expression(&mut self) -> ParseResult<Expression> {
         let target = self.deeper(Self::conditional)?;
         let Some((_, operator)) = ASSIGNMENTS.iter().find(|(text, _)| *text == self.text()) else {
             return Ok(target);
@@ -287,7 +287,7 @@ impl Parser<'_> {
         Ok(Expression { line, kind: ExpressionKind::Assign(*operator, Box::new(target), Box::new(value)) })
     }
 
-    fn conditional(&mut self) -> Parsed<Expression> {
+    fn conditional(&mut self) -> ParseResult<Expression> {
         let condition = self.binary(0)?;
         if !self.takes("?") {
             return Ok(condition);
@@ -300,7 +300,7 @@ impl Parser<'_> {
         Ok(Expression { line, kind })
     }
 
-    fn binary(&mut self, level: usize) -> Parsed<Expression> {
+    fn binary(&mut self, level: usize) -> ParseResult<Expression> {
         let Some(operators) = LEVELS.get(level) else {
             return self.deeper(Self::unary);
         };
@@ -314,7 +314,7 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    fn unary(&mut self) -> Parsed<Expression> {
+    fn unary(&mut self) -> ParseResult<Expression> {
         let line = self.line();
         for operator in ["-", "+", "!"] {
             if self.takes(operator) {
@@ -331,7 +331,7 @@ impl Parser<'_> {
         self.postfix()
     }
 
-    fn postfix(&mut self) -> Parsed<Expression> {
+    fn postfix(&mut self) -> ParseResult<Expression> {
         let mut expression = self.primary()?;
         loop {
             let line = self.line();
@@ -372,7 +372,7 @@ impl Parser<'_> {
         }
     }
 
-    fn primary(&mut self) -> Parsed<Expression> {
+    fn primary(&mut self) -> ParseResult<Expression> {
         let Some(Lexeme { kind, text, line }) = self.lexemes.get(self.place).cloned() else {
             return self.fail("the shader ends within an expression");
         };

@@ -69,7 +69,7 @@ pub struct Judgement {
     /// The larger of both ways' 95th percentiles, pixels; `None` without any ink or any line.
     pub hausdorff_95_px: Option<f64>,
     /// Lines that were drawn though hidden.
-    pub hidden: Hidden,
+    pub hidden: HiddenScore,
     /// How the lines were moved onto the drawing, if requested.
     pub fit: Option<Fit>,
     /// Why the numbers probably do not describe the drawing's lines.
@@ -98,7 +98,7 @@ pub struct OneToOne {
 /// Lines behind something, farther than twice the tolerance from every visible one; empty for a reference without hidden lines
 /// ([`Reference::with_hidden`]).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Hidden {
+pub struct HiddenScore {
     /// Their length, pixels.
     pub length_px: f64,
     /// How much of it has ink within the tolerance, pixels.
@@ -144,8 +144,8 @@ pub fn judge(ink: &Ink, reference: &Reference, settings: &JudgeSettings) -> Resu
 }
 
 /// Hidden lines that are drawn.
-fn hidden(ink: &Ink, reference: &Reference, fit: Option<&Fit>, tolerance_px: f64) -> Hidden {
-    let mut hidden = Hidden { length_px: 0.0, drawn_px: 0.0 };
+fn hidden(ink: &Ink, reference: &Reference, fit: Option<&Fit>, tolerance_px: f64) -> HiddenScore {
+    let mut hidden = HiddenScore { length_px: 0.0, drawn_px: 0.0 };
     let is_hidden = |segment: &&LineSegment| !segment.is_visible;
     for mut sample in reference.lines.segments.iter().filter(is_hidden).flat_map(samples_of) {
         if let Some(fit) = fit {

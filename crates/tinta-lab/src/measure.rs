@@ -39,5 +39,5 @@ pub(crate) use reference::samples_of;
 pub use reference::{Reference, Sample};
 pub use row::{Against, LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
 pub(crate) use run::shading_of;
-pub use run::{MeasureSettings, MeasureStep, Measured, MeasuredStyle, Subject, frames_a_turn, measure, turns};
+pub use run::{MeasureSettings, MeasureStep, MeasuredStyle, Measurement, Subject, frames_a_turn, measure, turns};
 pub use tones::ReferenceLight;

@@ -39,7 +39,7 @@ use crate::measure::Row;
 use columns::Value;
 use std::path::Path;
 use tinta::error::{Error, FileKind, Result};
-use tinta::output::Staged;
+use tinta::output::StagedContents;
 
 /// All rows with all their columns but the times of single frames, which `results.jsonl` has.
 ///
@@ -82,7 +82,7 @@ pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
         return Err(Error::file(FileKind::Rows, folder, "no row to report on; measure something first"));
     }
     // They belong together: none appears before all are on the disk.
-    let stage = |name: &str, text: &str| Staged::new(&folder.join(name), text.as_bytes());
+    let stage = |name: &str, text: &str| StagedContents::new(&folder.join(name), text.as_bytes());
     let mut staged = vec![stage("results.csv", &csv(rows))?];
     let machines = machines(rows);
     for (number, machine) in machines.iter().enumerate() {
@@ -103,5 +103,5 @@ pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
         }
     }
     staged.push(stage("report.html", &html(rows, info)?)?);
-    staged.into_iter().try_for_each(Staged::put_in_place)
+    staged.into_iter().try_for_each(StagedContents::put_in_place)
 }

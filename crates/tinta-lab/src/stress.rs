@@ -29,9 +29,9 @@ mod table;
 mod variants;
 mod written;
 
-pub use cases::{Case, Check, Content, Drawing, Expected, Group, Study, Work, cases};
-pub use jitter::{Flips, Popped};
+pub use cases::{Case, Check, Content, Demand, Drawing, Group, Study, Work, cases};
+pub use jitter::{Flips, PoppedShares};
 pub use run::{MissingBackend, Row, StressSettings, Summary, run};
 pub use shapes::Shape;
 pub use variants::Variant;
-pub use written::Written;
+pub use written::WrittenShape;

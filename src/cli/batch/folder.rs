@@ -1,7 +1,7 @@
 //! A list of jobs that draw each model into its own file, with the same options.
 
 use super::super::models::refuse_missing;
-use super::super::options::{CameraFile, Chosen, NamedLook, OfRequest, PresetFile};
+use super::super::options::{CameraFile, GivenOptions, NamedLook, OfRequest, PresetFile};
 use super::super::{Program, standard_input};
 use super::JobOptions;
 use crate::request::is_drawn_into;
@@ -16,7 +16,7 @@ use tinta::{AnimationTarget, Error, Result};
 #[derive(clap::Args)]
 pub(super) struct Drawing {
     #[command(flatten)]
-    options: Chosen<OfRequest>,
+    options: GivenOptions<OfRequest>,
 
     #[command(flatten)]
     look: NamedLook,

@@ -53,13 +53,13 @@ impl Selection for OfHalftone {
 }
 
 fn command() -> Command {
-    <Chosen<OfHalftone> as clap::Args>::augment_args(Command::new("halftone"))
+    <GivenOptions<OfHalftone> as clap::Args>::augment_args(Command::new("halftone"))
 }
 
 fn given(words: &[&str]) -> std::result::Result<Options, clap::Error> {
     let words = ["halftone"].iter().chain(words).map(|word| (*word).to_owned());
     let matches = command().try_get_matches_from(words)?;
-    Chosen::<OfHalftone>::from_arg_matches(&matches).map(|chosen| chosen.options)
+    GivenOptions::<OfHalftone>::from_arg_matches(&matches).map(|chosen| chosen.options)
 }
 
 #[test]

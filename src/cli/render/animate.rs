@@ -12,7 +12,7 @@ use std::time::Instant;
 use tinta::animation::NumberedName;
 use tinta::lines::Progress as LineProgress;
 use tinta::mesh::ModelFrame;
-use tinta::plan::prune::Pruned;
+use tinta::plan::prune::PrunedPlan;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
 use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Resolved, Session, empty_remark};
@@ -82,7 +82,7 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     for (number, view) in views.iter().enumerate() {
         let frame = Instant::now();
         let scene = view.lit();
-        let (published, Pruned { mut plan, .. }) = view.plans(renderer)?;
+        let (published, PrunedPlan { mut plan, .. }) = view.plans(renderer)?;
         plan.submission = run.submission;
         if number == 0 {
             remarks = view.picture_remarks(&plan, renderer);

@@ -10,9 +10,9 @@ use super::watched::{is_stopped, progress, watched};
 use super::{explain, keep};
 use std::time::Instant;
 use tinta::lines::{DrawingContent, DrawingFormat, chain, strokes_of_paths};
-use tinta::record::{LineCounts, LinesMade, Made, Record};
+use tinta::record::{DrawingFacts, LineCounts, LinesMade, Record};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{DrawnLines, Session, Wanted};
+use tinta::request::{DrawnLines, Session, WantedLines};
 use tinta::{Error, Result, Show, Target, TextTarget};
 
 /// Finds the lines and writes them.
@@ -42,7 +42,7 @@ fn one_view(
     stop: Option<&Stop>,
 ) -> Result<Verdict> {
     let Rendering { request, run, output } = *rendering;
-    let (progress, wanted) = (progress(rendering), Wanted::of(format, run.is_told()));
+    let (progress, wanted) = (progress(rendering), WantedLines::of(format, run.is_told()));
     let drawn = match watched(&progress, stop, || request.lines(session, wanted, &progress)) {
         Err(Error::Cancelled) => return Ok(stopped(stop)),
         drawn => drawn?,
@@ -92,7 +92,7 @@ fn one_view(
 /// The record of the drawing.
 fn record(rendering: &Rendering<'_>, drawn: DrawnLines, counts: LineCounts, lines_ms: f64) -> Record {
     let DrawnLines { resolved, lines, remarks, load_ms, .. } = drawn;
-    let made = Made::Lines(Box::new(LinesMade {
+    let made = DrawingFacts::Lines(Box::new(LinesMade {
         edges: lines.edges,
         changes: lines.changes.clone(),
         counts,

@@ -3,7 +3,7 @@
 use super::super::Verdict;
 use std::path::{Path, PathBuf};
 use tinta::plan::Plan;
-use tinta::plan::prune::{Omission, Pruned, Pruning, prune};
+use tinta::plan::prune::{Omission, PrunedPlan, Pruning, prune};
 use tinta::renderer::median;
 use tinta::request::{Around, Resolved};
 use tinta::{Picture, Renderer, Result, Scene, Target};
@@ -63,7 +63,7 @@ pub(super) fn explanation(
     pruning: &Pruning,
     frames: usize,
 ) -> Result<String> {
-    let Pruned { plan, omissions, kept } = prune(published, scene, pruning);
+    let PrunedPlan { plan, omissions, kept } = prune(published, scene, pruning);
     // Each is restored alone, because they build on one another.
     let with = |omission: &Omission| {
         let keep = pruning.keep.iter().copied().chain([omission.rule]).collect();

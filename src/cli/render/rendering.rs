@@ -3,7 +3,7 @@
 use super::super::inputs::Inputs;
 use super::super::run_settings::RunSettings;
 use tinta::Scene;
-use tinta::record::{CameraRecord, Made, ModelRecord, Record};
+use tinta::record::{CameraRecord, DrawingFacts, ModelRecord, Record};
 use tinta::request::{Request, Resolved};
 use tinta::styles::{Contents, LineStyle, Style};
 
@@ -22,7 +22,7 @@ impl Rendering<'_> {
     }
 
     /// The record of this drawing.
-    pub(super) fn record(&self, resolved: &Resolved, load_ms: f64, remarks: Vec<String>, made: Made) -> Record {
+    pub(super) fn record(&self, resolved: &Resolved, load_ms: f64, remarks: Vec<String>, made: DrawingFacts) -> Record {
         let Resolved { scene, contents: Contents { lines, drawing, .. }, .. } = resolved;
         let models = self.model_records(scene);
         let is_over = self.request.exact_lines && !self.request.style.style_name().draws_lines();

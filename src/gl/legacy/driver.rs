@@ -55,7 +55,7 @@ const TEXTURE_ENV_MODE: u32 = 0x2200;
 /// `GL_MODULATE`
 const MODULATE: i32 = 0x2100;
 
-type Enumerated = unsafe extern "system" fn(u32);
+type EnumFunction = unsafe extern "system" fn(u32);
 type LoadMatrix = unsafe extern "system" fn(*const f32);
 type Color = unsafe extern "system" fn(f32, f32, f32, f32);
 type VertexPointer = unsafe extern "system" fn(i32, u32, i32, *const c_void);
@@ -67,12 +67,12 @@ type ResetStatus = unsafe extern "system" fn() -> u32;
 
 /// The functions, each with the type of the specification.
 pub(in crate::gl) struct Legacy {
-    matrix_mode: Enumerated,
+    matrix_mode: EnumFunction,
     load_matrix: LoadMatrix,
     color: Color,
-    enable_client_state: Enumerated,
-    disable_client_state: Enumerated,
-    client_active_texture: Enumerated,
+    enable_client_state: EnumFunction,
+    disable_client_state: EnumFunction,
+    client_active_texture: EnumFunction,
     vertex_pointer: VertexPointer,
     normal_pointer: NormalPointer,
     color_pointer: VertexPointer,
@@ -105,12 +105,14 @@ impl Legacy {
         // SAFETY: each address is that of the function named, whose C type is the one in the table.
         unsafe {
             Ok(Self {
-                matrix_mode: std::mem::transmute::<*const c_void, Enumerated>(find(c"glMatrixMode")?),
+                matrix_mode: std::mem::transmute::<*const c_void, EnumFunction>(find(c"glMatrixMode")?),
                 load_matrix: std::mem::transmute::<*const c_void, LoadMatrix>(find(c"glLoadMatrixf")?),
                 color: std::mem::transmute::<*const c_void, Color>(find(c"glColor4f")?),
-                enable_client_state: std::mem::transmute::<*const c_void, Enumerated>(find(c"glEnableClientState")?),
-                disable_client_state: std::mem::transmute::<*const c_void, Enumerated>(find(c"glDisableClientState")?),
-                client_active_texture: std::mem::transmute::<*const c_void, Enumerated>(find(
+                enable_client_state: std::mem::transmute::<*const c_void, EnumFunction>(find(c"glEnableClientState")?),
+                disable_client_state: std::mem::transmute::<*const c_void, EnumFunction>(find(
+                    c"glDisableClientState",
+                )?),
+                client_active_texture: std::mem::transmute::<*const c_void, EnumFunction>(find(
                     c"glClientActiveTexture",
                 )?),
                 vertex_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(c"glVertexPointer")?),

@@ -120,12 +120,12 @@ pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
 }
 
 /// The parts of a list that remain, and the others.
-struct Left<T> {
+struct RemainingItems<T> {
     is_read: Vec<bool>,
     dropped: Vec<T>,
 }
 
-impl<T> Left<T> {
+impl<T> RemainingItems<T> {
     /// Returns the new number of the item that had this number.
     fn number(&self, old: usize) -> usize {
         self.is_read[..old].iter().filter(|is_read| **is_read).count()
@@ -133,11 +133,11 @@ impl<T> Left<T> {
 }
 
 /// Drops a list's unread items, by number.
-fn drop_unread<T: Clone>(list: &mut Vec<T>, is_read: impl Fn(usize) -> bool) -> Left<T> {
+fn drop_unread<T: Clone>(list: &mut Vec<T>, is_read: impl Fn(usize) -> bool) -> RemainingItems<T> {
     let is_read: Vec<bool> = (0..list.len()).map(is_read).collect();
     let of =
         |wanted: bool| list.iter().zip(&is_read).filter(move |(_, read)| **read == wanted).map(|(one, _)| one.clone());
     let (kept, dropped) = (of(true).collect(), of(false).collect());
     *list = kept;
-    Left { is_read, dropped }
+    RemainingItems { is_read, dropped }
 }

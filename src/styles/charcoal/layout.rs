@@ -2,7 +2,7 @@
 //!
 //! In: the textures and the picture's size. Out: uniforms.
 
-use super::pictures::Made;
+use super::pictures::CharcoalTextures;
 use crate::plan::{Uniform, Value};
 use crate::scene::Size;
 
@@ -20,7 +20,7 @@ pub(super) struct Layout {
 
 impl Layout {
     /// The layout of these textures: stretched once over the picture, or each in its own proportions.
-    pub(super) fn of(made: &Made, picture: Size, samples: u32, is_even: bool) -> Self {
+    pub(super) fn of(made: &CharcoalTextures, picture: Size, samples: u32, is_even: bool) -> Self {
         let spread = |texture: Size| if is_even { even(picture, texture) } else { [1.0; 2] };
         Self {
             picture,

@@ -73,7 +73,7 @@ impl Value for TextureSource {
 
 /// Textures kept for the next picture; shared between clones. Any two compare equal, because the settings determine them.
 #[derive(Debug, Clone, Default)]
-pub struct CharcoalPictures(Arc<Mutex<Option<(TextureSettings, Made)>>>);
+pub struct CharcoalPictures(Arc<Mutex<Option<(TextureSettings, CharcoalTextures)>>>);
 
 impl PartialEq for CharcoalPictures {
     fn eq(&self, _: &Self) -> bool {
@@ -94,7 +94,7 @@ pub(super) struct TextureSettings {
 
 /// The textures.
 #[derive(Debug, Clone)]
-pub(super) struct Made {
+pub(super) struct CharcoalTextures {
     pub noise: Arc<Picture>,
     pub cet: Arc<Picture>,
     pub paper: Arc<Picture>,
@@ -104,7 +104,7 @@ pub(super) struct Made {
 
 impl CharcoalPictures {
     /// Returns the textures of these settings, kept or made now.
-    pub(super) fn of(&self, settings: TextureSettings) -> Result<Made> {
+    pub(super) fn of(&self, settings: TextureSettings) -> Result<CharcoalTextures> {
         let (size, seed, random) = (settings.noise.size, settings.noise.seed, settings.noise.random);
         if size.width.max(size.height) > LARGEST_SIDE_PX {
             return Err(Error::value(
@@ -122,7 +122,7 @@ impl CharcoalPictures {
         }
         let [noise, cet, paper] = &settings.sources;
         let sheet = PaperTexture { size, seed, random };
-        let made = Made {
+        let made = CharcoalTextures {
             noise: noise.or_made(|| settings.noise.picture())?,
             cet: cet.or_made(|| settings.contrast.picture())?,
             paper: paper.or_made(|| sheet.picture())?,

@@ -75,14 +75,14 @@ pub struct Drawer {
     are_tried: bool,
     /// Those that it drew with last.
     good_shaders: HashMap<String, String>,
-    warmed: Option<Warmed>,
+    warmed: Option<WarmScene>,
     /// The light of the tones in the last view of these models.
     light: Option<(Arc<Scene>, [f32; 3])>,
 }
 
 /// The models and pictures that the driver has compiled and uploaded.
 #[derive(Debug)]
-struct Warmed {
+struct WarmScene {
     /// The models drawn last.
     scene: Arc<Scene>,
     /// Their pictures drawn before.
@@ -180,7 +180,7 @@ impl Drawer {
     /// Whether a picture of these models is drawn for the first time; it is not from now on.
     fn is_first(&mut self, job: &Job, style: StyleName, show: Show) -> bool {
         let warmed = self.warmed.take().filter(|warmed| Arc::ptr_eq(&warmed.scene, &job.scene));
-        let mut warmed = warmed.unwrap_or_else(|| Warmed { scene: job.scene.clone(), pictures: Vec::new() });
+        let mut warmed = warmed.unwrap_or_else(|| WarmScene { scene: job.scene.clone(), pictures: Vec::new() });
         let is_first = !warmed.pictures.contains(&(style, show));
         warmed.pictures.extend(is_first.then_some((style, show)));
         self.warmed = Some(warmed);

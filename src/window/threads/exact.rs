@@ -10,13 +10,13 @@ use crate::picture::Picture;
 use crate::renderer::milliseconds_since;
 use crate::request::Request;
 use crate::styles::Style;
-use crate::window::threads::job::{Found, Job, Lines};
+use crate::window::threads::job::{FoundLines, Job, Lines};
 use crate::window::threads::report::{Report, Reporter};
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Finds the lines of a job.
-fn find(job: &Job, progress: &Progress) -> Result<Found> {
+fn find(job: &Job, progress: &Progress) -> Result<FoundLines> {
     let (start, scene) = (Instant::now(), job.scene()?);
     let mut lines: Vec<Lines> = Vec::new();
     for (number, (_, drawing)) in job.drawings.iter().enumerate() {
@@ -27,7 +27,7 @@ fn find(job: &Job, progress: &Progress) -> Result<Found> {
             None => of_request(job.request(drawing), scene.clone(), progress)?,
         });
     }
-    Ok(Found { ms: milliseconds_since(start), lines, job: job.clone() })
+    Ok(FoundLines { ms: milliseconds_since(start), lines, job: job.clone() })
 }
 
 fn of_request(mut request: Request, scene: crate::scene::Scene, progress: &Progress) -> Result<Lines> {
@@ -45,7 +45,7 @@ fn of_request(mut request: Request, scene: crate::scene::Scene, progress: &Progr
 /// The lines of the view that is shown.
 #[derive(Debug, Default)]
 pub struct ExactLines {
-    found: Option<Found>,
+    found: Option<FoundLines>,
     /// The current search.
     finding: Option<(Job, Arc<Progress>)>,
     /// The lines that failed, and why.
@@ -54,7 +54,7 @@ pub struct ExactLines {
 
 impl ExactLines {
     /// The last that were found.
-    pub fn found(&self) -> Option<&Found> {
+    pub fn found(&self) -> Option<&FoundLines> {
         self.found.as_ref()
     }
 
@@ -107,7 +107,7 @@ impl ExactLines {
     }
 
     /// Takes a thread's result.
-    pub fn take(&mut self, found: Result<Found>) {
+    pub fn take(&mut self, found: Result<FoundLines>) {
         let Some((job, progress)) = self.finding.take() else { return };
         match found {
             Ok(found) => self.found = Some(found),

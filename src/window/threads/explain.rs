@@ -21,13 +21,13 @@ impl PixelJob {
 
 /// The last question and the last answer.
 #[derive(Debug, Default)]
-pub struct Explained {
+pub struct PixelAnswer {
     asked: Option<PixelJob>,
     is_asking: bool,
     answer: Option<std::result::Result<Explanation, String>>,
 }
 
-impl Explained {
+impl PixelAnswer {
     /// The answer, or why there is none.
     pub fn answer(&self) -> Option<&std::result::Result<Explanation, String>> {
         self.answer.as_ref()

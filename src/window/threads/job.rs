@@ -103,7 +103,7 @@ pub enum Lines {
 
 /// Lines that were found.
 #[derive(Debug)]
-pub struct Found {
+pub struct FoundLines {
     /// The view, and the requests of its sides.
     pub job: Job,
     /// The lines of each of its drawings.
@@ -112,7 +112,7 @@ pub struct Found {
     pub ms: f64,
 }
 
-impl Found {
+impl FoundLines {
     /// The strokes and shadow of a side, and their request.
     pub(in crate::window) fn of_side(&self, side: Side) -> Option<(&Request, &Lines)> {
         let place = self.job.drawings.iter().position(|(of, _)| *of == side)?;

@@ -102,7 +102,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When a thread has ended.
-    pub(in crate::window) fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
+    pub(in crate::window) fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), LostThread> {
         let is_free = |thread: &Thread| thread.orders.is_some() && thread.job.is_none();
         let may_add = is_moving && self.may_grow && self.threads.len() < MOST;
         // If no other thread can start, the picture waits.
@@ -120,8 +120,8 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When it has ended.
-    pub(in crate::window) fn measure_cost(&self, job: Job, measure: Option<LineMeasure>) -> Result<(), Ended> {
-        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job), measure)))
+    pub(in crate::window) fn measure_cost(&self, job: Job, measure: Option<LineMeasure>) -> Result<(), LostThread> {
+        self.threads.first().map_or(Err(LostThread), |thread| thread.send(Order::MeasureCost(Box::new(job), measure)))
     }
 
     /// Has a pixel explained by the first thread.
@@ -129,8 +129,8 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When it has ended.
-    pub(in crate::window) fn explain(&self, job: PixelJob) -> Result<(), Ended> {
-        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::Explain(Box::new(job))))
+    pub(in crate::window) fn explain(&self, job: PixelJob) -> Result<(), LostThread> {
+        self.threads.first().map_or(Err(LostThread), |thread| thread.send(Order::Explain(Box::new(job))))
     }
 
     /// Replaces shaders.
@@ -138,7 +138,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When a thread has ended.
-    pub(in crate::window) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), Ended> {
+    pub(in crate::window) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), LostThread> {
         self.shaders = Some(shaders.clone());
         let mut working = self.threads.iter().filter(|thread| thread.orders.is_some());
         working.try_for_each(|thread| thread.send(Order::Shaders(shaders.clone())))
@@ -152,7 +152,7 @@ impl RenderThreads {
 
 /// A thread has ended that should not have.
 #[derive(Debug)]
-pub(in crate::window) struct Ended;
+pub(in crate::window) struct LostThread;
 
 /// Whether two contexts belong to the same driver and draw the same pictures.
 fn is_same_driver(a: &ContextInfo, b: &ContextInfo) -> bool {
@@ -160,8 +160,8 @@ fn is_same_driver(a: &ContextInfo, b: &ContextInfo) -> bool {
 }
 
 impl Thread {
-    fn send(&self, order: Order) -> Result<(), Ended> {
-        self.orders.as_ref().ok_or(Ended)?.send(order).map_err(|_| Ended)
+    fn send(&self, order: Order) -> Result<(), LostThread> {
+        self.orders.as_ref().ok_or(LostThread)?.send(order).map_err(|_| LostThread)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::gl::ContextInfo;
 use crate::mesh::LoadOptions;
 use crate::pixel::Explanation;
 use crate::scene::Scene;
-use crate::window::threads::job::{Cost, Drawing, Found};
+use crate::window::threads::job::{Cost, Drawing, FoundLines};
 use crate::window::threads::line_measure::LineScore;
 use crate::window::values::event::Side;
 use std::collections::HashMap;
@@ -55,7 +55,7 @@ pub enum Report {
     /// The error of a side's lines against the exact ones.
     Measured(u64, Vec<(Side, LineScore)>),
     /// The exact lines of a view, or the reason why they failed.
-    Lines(Box<Result<Found>>),
+    Lines(Box<Result<FoundLines>>),
     /// Chosen models, possibly none.
     Chosen(Vec<String>),
     /// A model's file has changed.

@@ -10,7 +10,7 @@ use crate::picture::{Picture, Target};
 use crate::preset::{OptionValue, Options, to_toml};
 use crate::recipe::{Driver, FileRecord};
 use crate::renderer::Renderer;
-use crate::request::{OptionLayer, Request, Wanted};
+use crate::request::{OptionLayer, Request, WantedLines};
 use crate::scene::SceneSettings;
 use crate::settings::{HasSettings, Value as _};
 use crate::shell;
@@ -159,7 +159,7 @@ fn save_of(
             let request = request(state, job, surroundings, save, side)?;
             let resolved = request.resolve_again(&job.scene, true)?;
             let recipe = resolved.request.recipe(&resolved.scene, files, None, record);
-            let drawn = resolved.drawn_lines(Wanted::default(), &Progress::default())?;
+            let drawn = resolved.drawn_lines(WantedLines::default(), &Progress::default())?;
             drawn.written(DrawingFormat::SVG, None, Some(&recipe))?.write(&name, request.is_transparent())?;
         }
         Save::Turn => {
@@ -193,7 +193,7 @@ fn turn(request: &Request, job: &Job, backend: Backend, name: &str) -> Result<()
         writer.add(match view.contents.below {
             Below::Passes(_) | Below::Tones(..) => view.picture(&mut renderer)?,
             Below::Joined(_) | Below::Nothing => {
-                let strokes = view.drawn_lines(Wanted::default(), &Progress::default())?.strokes()?;
+                let strokes = view.drawn_lines(WantedLines::default(), &Progress::default())?.strokes()?;
                 let Raster { size, pixels } = raster_of_strokes(&strokes, view.scene.size, view.scene.background);
                 Picture { size, pixels }
             }

@@ -12,11 +12,11 @@ use crate::scene::Scene;
 use crate::styles::Show;
 use crate::window::threads::cost::Costs;
 use crate::window::threads::exact::ExactLines;
-use crate::window::threads::explain::{Explained, PixelJob};
+use crate::window::threads::explain::{PixelAnswer, PixelJob};
 use crate::window::threads::job::{Drawing, Job, Lines};
 use crate::window::threads::line_measure::LineMeasure;
 use crate::window::threads::load::Loader;
-use crate::window::threads::render_threads::{Ended, RenderThreads};
+use crate::window::threads::render_threads::{LostThread, RenderThreads};
 use crate::window::threads::report::{LoadedModels, Stage};
 use crate::window::threads::report::{Report, Reporter};
 use crate::window::threads::save::{Surroundings, save};
@@ -54,7 +54,7 @@ pub struct Viewer {
     /// The exact lines of the view, where a side shows them.
     pub lines: ExactLines,
     /// The pixel under the pointer.
-    pub explained: Explained,
+    pub explained: PixelAnswer,
     /// The current stage of loading.
     pub stage: Option<Stage>,
     /// A shader that was refused, with the driver's log.
@@ -127,7 +127,7 @@ impl Viewer {
             state: options.state,
             costs: Costs::default(),
             lines: ExactLines::default(),
-            explained: Explained::default(),
+            explained: PixelAnswer::default(),
             stage: None,
             shader_log: None,
             problem: None,
@@ -385,7 +385,7 @@ impl Viewer {
         made_of.into_iter().map(|(save, output)| command(save, output)).collect()
     }
 
-    fn check(&mut self, sent: std::result::Result<(), Ended>) {
+    fn check(&mut self, sent: std::result::Result<(), LostThread>) {
         if sent.is_err() && self.gone.is_none() {
             self.gone = Some(Error::gl("drawing", "a drawing thread has ended"));
         }

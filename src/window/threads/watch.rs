@@ -18,11 +18,11 @@ type Look = Option<(SystemTime, u64)>;
 
 /// Files and their last state.
 #[derive(Debug, Default)]
-pub(in crate::window) struct Watched {
+pub(in crate::window) struct WatchedFiles {
     files: Vec<(PathBuf, Look, Look)>,
 }
 
-impl Watched {
+impl WatchedFiles {
     /// Begins to watch files in their current state.
     pub(in crate::window) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let seen = |file: PathBuf| {
@@ -62,11 +62,11 @@ pub(in crate::window) fn start(shaders: Option<PathBuf>, reporter: Reporter) -> 
 
 fn work(shaders: Option<&Path>, lists: &Receiver<Vec<PathBuf>>, reporter: &Reporter) {
     let shader_files = shaders.map(|folder| SOURCES.iter().map(|(path, _)| folder.join(path)).collect::<Vec<_>>());
-    let mut watched_shaders = Watched::new(shader_files.unwrap_or_default());
-    let mut models = Watched::default();
+    let mut watched_shaders = WatchedFiles::new(shader_files.unwrap_or_default());
+    let mut models = WatchedFiles::default();
     loop {
         match lists.recv_timeout(INTERVAL) {
-            Ok(list) => models = Watched::new(list),
+            Ok(list) => models = WatchedFiles::new(list),
             Err(RecvTimeoutError::Disconnected) => return,
             Err(RecvTimeoutError::Timeout) => {}
         }
@@ -90,7 +90,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.obj");
         std::fs::write(&file, "v").unwrap();
-        let mut watched = Watched::new([file.clone()]);
+        let mut watched = WatchedFiles::new([file.clone()]);
         assert!(!watched.has_changed());
         std::fs::write(&file, "v 0").unwrap();
         assert!(!watched.has_changed(), "it may still be being written");
@@ -105,7 +105,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.obj");
         std::fs::write(&file, "v").unwrap();
-        let mut watched = Watched::new([file.clone()]);
+        let mut watched = WatchedFiles::new([file.clone()]);
         std::fs::remove_file(&file).unwrap();
         assert!(!watched.has_changed() && !watched.has_changed());
         std::fs::write(&file, "v 0 0 0").unwrap();

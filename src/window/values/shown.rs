@@ -24,7 +24,7 @@ pub(in crate::window) const NARROW: u32 = 800;
 const STILL: Duration = Duration::from_millis(200);
 
 /// The parts that exist once the window exists.
-pub(in crate::window) struct Shown {
+pub(in crate::window) struct WindowParts {
     pub viewer: Viewer,
     textures: Textures,
     pub egui: egui_winit::State,
@@ -44,7 +44,7 @@ pub(in crate::window) struct Shown {
     is_played: bool,
 }
 
-impl Shown {
+impl WindowParts {
     /// `played` is whether a recording plays that gives the drawing area its sizes, if one plays.
     pub(in crate::window) fn open(
         event_loop: &ActiveEventLoop,

@@ -120,7 +120,7 @@ fn presets(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
 fn settings(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
     let side = state.active;
     let request = state.seen(side);
-    let mut list = Listed { words: search(ui), events };
+    let mut list = ControlLists { words: search(ui), events };
     if state.lines_shown(side) == LinesShown::Over {
         let title = |_: &str| "Exact lines of both sides".to_owned();
         let of_lines = Group::Style.controls(&in_style(&request, StyleName::Lines));
@@ -174,12 +174,12 @@ fn of_style_heading(heading: &str, style: &str) -> String {
 }
 
 /// Lists of controls, filtered by the search, and the events they make.
-struct Listed<'a> {
+struct ControlLists<'a> {
     words: String,
     events: &'a mut Vec<ViewerEvent>,
 }
 
-impl Listed<'_> {
+impl ControlLists<'_> {
     /// Shows controls under their headings, which fold unless a search is active.
     fn show(
         &mut self,

@@ -4,6 +4,7 @@
 pub(super) mod candidates;
 pub(super) mod centre_lines;
 mod coplanar;
+pub(super) mod covered_faces;
 mod edge_classes;
 pub(super) mod face_subset;
 pub(super) mod feature;
@@ -14,5 +15,4 @@ pub(super) mod mesh_repair;
 mod normal_creases;
 pub(super) mod object_edges;
 pub(super) mod overlaps;
-pub(super) mod repeated_sheets;
 pub(super) mod split_t_junctions;

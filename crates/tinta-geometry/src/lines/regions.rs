@@ -43,6 +43,6 @@ pub use ground::{ground_light, ground_shadow};
 pub use lit::LIGHTS;
 pub use region::{Region, Regions, SeenFace};
 pub use seen_normals::SeenNormals;
-pub use surface::{Joined, Surface};
+pub use surface::{JoinKey, Surface};
 pub use tones::{ToneLight, ToneRule, TonedSurface};
 pub(in crate::lines) use view::View;

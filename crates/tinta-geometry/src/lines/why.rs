@@ -130,7 +130,7 @@ impl VisibleLines {
         let (input, search, progress) = (LineInput::of(&sight, &by_rules)?, Arc::default(), Progress::default());
         let candidates = Candidates::of(&input, &search, &progress)?;
         let lines = LineIndex::new(&input, &candidates, &search, &progress)?;
-        let mut why = Explained { lines: &lines, input: &input }.nearest(px).ok_or_else(|| {
+        let mut why = NamedLines { lines: &lines, input: &input }.nearest(px).ok_or_else(|| {
             Error::setting("classes", "the picture has no line of these classes; name others, or move the camera")
         })?;
         let settings = LineSettings { finds_hidden: true, reference: false, ..settings.clone() };
@@ -163,7 +163,7 @@ impl WhyPiece {
 }
 
 /// A scene's lines with the names of their objects and parts.
-struct Explained<'a> {
+struct NamedLines<'a> {
     lines: &'a LineIndex<'a>,
     input: &'a LineInput<'a>,
 }
@@ -176,7 +176,7 @@ struct Candidate {
     pieces: Vec<Interval>,
 }
 
-impl Explained<'_> {
+impl NamedLines<'_> {
     fn nearest(&self, px: DVec2) -> Option<Why> {
         let lines = self.lines;
         let near = |index: usize| {

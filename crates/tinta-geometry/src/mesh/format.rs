@@ -21,7 +21,7 @@ pub(super) struct ModelFile<'a> {
 }
 
 /// Reads a file; the list gets a sentence for each remark.
-type Read = fn(&ModelFile<'_>, &mut Vec<String>) -> Result<Soup>;
+type FormatReader = fn(&ModelFile<'_>, &mut Vec<String>) -> Result<Soup>;
 
 /// A format that is read: a row of [`Format::ALL`].
 #[derive(Debug)]
@@ -36,7 +36,7 @@ pub struct Format {
     pub(super) is_unmistakable: bool,
     /// Which of its axes is up.
     pub(super) up: Up,
-    pub(super) read: Read,
+    pub(super) read: FormatReader,
 }
 
 /// How a file's positions turn to y up with the front towards +z, `None` where they are so; and the other axis that may be up, where the
@@ -81,7 +81,7 @@ impl Format {
         endings: &'static [&'static str],
         is_it: fn(&[u8]) -> bool,
         up: Up,
-        read: Read,
+        read: FormatReader,
     ) -> Self {
         Self { name, endings, is_it, is_unmistakable: true, up, read }
     }

@@ -18,7 +18,7 @@ pub use super::options::{LoadOptions, LoadStage, Normals, UpAxis};
 
 /// The model that [`load`] read, with remarks to report once.
 #[derive(Debug)]
-pub struct Loaded {
+pub struct LoadedModel {
     /// The model.
     pub mesh: Mesh,
     /// The names of the file's frames in order, as `LoadOptions::model_frame` takes them; empty if it has none.
@@ -38,7 +38,7 @@ pub struct Loaded {
 /// [`Error::File`] if the file is missing, unreadable, empty, damaged, of an unknown format or without anything to draw, or if
 /// `options.skin` is no file; [`Error::Strict`] if it has defects and `options.strict` is set; [`Error::Setting`] if an option
 /// is invalid or does not suit this model.
-pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
+pub fn load(path: &str, options: &LoadOptions) -> Result<LoadedModel> {
     load_watched(path, options, &|_| {})
 }
 
@@ -47,7 +47,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 /// # Errors
 ///
 /// Those of [`load`].
-pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
+pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<LoadedModel> {
     check(options)?;
     timed(watch, |watch| {
         watch(LoadStage::Reading);
@@ -76,7 +76,10 @@ fn check_free(path: &str, free: Option<u64>) -> Result<()> {
 }
 
 /// Runs `work` and records the time of each stage it begins.
-fn timed(watch: &dyn Fn(LoadStage), work: impl FnOnce(&dyn Fn(LoadStage)) -> Result<Loaded>) -> Result<Loaded> {
+fn timed(
+    watch: &dyn Fn(LoadStage),
+    work: impl FnOnce(&dyn Fn(LoadStage)) -> Result<LoadedModel>,
+) -> Result<LoadedModel> {
     let begun = RefCell::new(Vec::new());
     let mut loaded = work(&|stage| {
         begun.borrow_mut().push((stage, Instant::now()));
@@ -96,7 +99,7 @@ fn timed(watch: &dyn Fn(LoadStage), work: impl FnOnce(&dyn Fn(LoadStage)) -> Res
 /// # Errors
 ///
 /// Those of [`load`].
-pub fn read_as(bytes: &[u8], path: &str, options: &LoadOptions) -> Result<Loaded> {
+pub fn read_as(bytes: &[u8], path: &str, options: &LoadOptions) -> Result<LoadedModel> {
     check(options)?;
     timed(&|_| {}, |watch| {
         let mut remarks = Vec::new();
@@ -144,7 +147,7 @@ pub fn refuse_address(path: &str) -> Result<()> {
 /// # Errors
 ///
 /// Those of [`load`].
-pub fn read_bytes(bytes: &[u8], name: &str, beside: &[(&str, &[u8])], options: &LoadOptions) -> Result<Loaded> {
+pub fn read_bytes(bytes: &[u8], name: &str, beside: &[(&str, &[u8])], options: &LoadOptions) -> Result<LoadedModel> {
     check(options)?;
     timed(&|_| {}, |watch| {
         let mut remarks = Vec::new();
@@ -163,7 +166,7 @@ fn made(
     options: &LoadOptions,
     mut remarks: Vec<String>,
     watch: &dyn Fn(LoadStage),
-) -> Result<Loaded> {
+) -> Result<LoadedModel> {
     watch(LoadStage::Joining);
     if soup.frames.is_empty() {
         options.model_frame.check_still(path)?;
@@ -184,7 +187,7 @@ fn made(
     }
     let others = mesh.defects.others();
     remarks.extend(others.consequence().map(|consequence| format!("{path}: {others}; {consequence}")));
-    Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
+    Ok(LoadedModel { mesh, frames, files, remarks, stages: Vec::new() })
 }
 
 /// Advises on a file of an unsupported format.

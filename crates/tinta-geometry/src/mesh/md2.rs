@@ -9,7 +9,7 @@ use super::Material;
 use super::folder::{Folder, Lookup};
 use super::frame::Between;
 use super::options::LoadOptions;
-use super::skin::{self, Found};
+use super::skin::{self, SkinFile};
 use super::soup::{Corner, Soup};
 use crate::bytes::{Bytes, name};
 use crate::error::{Error, Result};
@@ -223,7 +223,7 @@ fn find_skin(
         if let Lookup::Here(place) = from_above {
             return Some(place);
         }
-        let Found { lookup, remark } = skin::find(folder, Path::new(""), &name, from_above == Lookup::Outside);
+        let SkinFile { lookup, remark } = skin::find(folder, Path::new(""), &name, from_above == Lookup::Outside);
         remarks.extend(remark.map(|remark| format!("{path}: {remark}")));
         match lookup {
             Lookup::Here(place) => return Some(place),

@@ -14,7 +14,7 @@ const LISTED: usize = 6;
 pub struct Pattern(pub String);
 
 /// What of a mesh a pattern names.
-pub(crate) struct Named {
+pub(crate) struct PatternMatches {
     /// The whole model.
     pub model: bool,
     /// Each part, by its number; a part is named if the one that holds it is.
@@ -23,7 +23,7 @@ pub(crate) struct Named {
     pub materials: Vec<bool>,
 }
 
-impl Named {
+impl PatternMatches {
     /// Whether it names anything.
     pub(crate) fn is_any(&self) -> bool {
         self.model || self.parts.contains(&true) || self.materials.contains(&true)
@@ -38,17 +38,17 @@ impl Named {
 
 impl Pattern {
     /// The parts and materials of a mesh that it names.
-    pub(crate) fn named(&self, mesh: &Mesh) -> Named {
+    pub(crate) fn named(&self, mesh: &Mesh) -> PatternMatches {
         if let Some(pattern) = self.0.strip_prefix(MATERIAL) {
             let materials = mesh.materials.iter().map(|material| matches(pattern, &material.name)).collect();
-            return Named { model: false, parts: Vec::new(), materials };
+            return PatternMatches { model: false, parts: Vec::new(), materials };
         }
         let mut parts: Vec<bool> = Vec::with_capacity(mesh.parts.len());
         for part in &mesh.parts {
             let is_within = part.within != NONE && parts.get(part.within as usize) == Some(&true);
             parts.push(is_within || matches(&self.0, &part.name));
         }
-        Named { model: matches(&self.0, file_name(&mesh.name)), parts, materials: Vec::new() }
+        PatternMatches { model: matches(&self.0, file_name(&mesh.name)), parts, materials: Vec::new() }
     }
 
     /// The sentence for a pattern that names nothing in these meshes.

@@ -20,7 +20,7 @@ use payload::{Damage, Payload, Value};
 use std::path::Path;
 
 /// Whether elements were read.
-type Read = std::result::Result<(), Damage>;
+type ElementResult = std::result::Result<(), Damage>;
 
 /// Whether a file begins like PLY.
 pub(super) fn looks_like(bytes: &[u8]) -> bool {
@@ -143,7 +143,7 @@ impl Contents {
     }
 
     /// Reads all elements of a kind.
-    fn element(&mut self, payload: &mut Payload<'_>, element: &Element, file_bytes: usize) -> Read {
+    fn element(&mut self, payload: &mut Payload<'_>, element: &Element, file_bytes: usize) -> ElementResult {
         match element.name.as_str() {
             "vertex" => self.vertices(payload, element),
             "face" => self.faces(payload, element),
@@ -153,7 +153,7 @@ impl Contents {
         }
     }
 
-    fn vertices(&mut self, payload: &mut Payload<'_>, element: &Element) -> Read {
+    fn vertices(&mut self, payload: &mut Payload<'_>, element: &Element) -> ElementResult {
         let count = payload.at_most(element);
         self.soup.positions.reserve_exact(count);
         self.soup.normals.reserve_exact(if self.has_normals { count } else { 0 });
@@ -191,7 +191,7 @@ impl Contents {
         Ok(())
     }
 
-    fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> Read {
+    fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> ElementResult {
         let Self { soup, vertices, has_normals, has_texture, paint, .. } = self;
         /// Corners for which there is room before a face is read.
         const LIST: usize = 1024;
@@ -253,7 +253,7 @@ impl Contents {
     }
 
     /// Edges between two vertices: segments of curves.
-    fn edges(&mut self, payload: &mut Payload<'_>, element: &Element) -> Read {
+    fn edges(&mut self, payload: &mut Payload<'_>, element: &Element) -> ElementResult {
         self.soup.segments.reserve_exact(payload.at_most(element));
         for _ in 0..element.count {
             let mut ends = [f64::NAN; 2];
@@ -271,7 +271,7 @@ impl Contents {
     }
 
     /// Strips of triangles, as old scans have them: often a single one, with negative indices where a new one begins.
-    fn strips(&mut self, payload: &mut Payload<'_>, element: &Element, file_bytes: usize) -> Read {
+    fn strips(&mut self, payload: &mut Payload<'_>, element: &Element, file_bytes: usize) -> ElementResult {
         let Self { soup, vertices, has_normals, has_texture, .. } = self;
         let with = |used: bool, index: u32| if used { index } else { NONE };
         let mut is_full = false;

@@ -10,7 +10,7 @@ mod hatching;
 mod rings;
 mod wedge;
 
-use super::{Curves, Mesh, NONE, Named, Pattern};
+use super::{Curves, Mesh, NONE, Pattern, PatternMatches};
 use crate::error::{Error, Result};
 use crate::settings::{Kind, Problem, Value};
 use crate::tolerances::ON_PLANE;
@@ -201,7 +201,7 @@ impl Mesh {
                 planes.push(plane);
             }
         }
-        let uncut: Vec<(Named, bool)> =
+        let uncut: Vec<(PatternMatches, bool)> =
             uncut.iter().rev().map(|(pattern, is_whole)| (pattern.named(&self), *is_whole)).collect();
         match planes.as_slice() {
             [] => Ok((self, Cut::Missed)),
@@ -215,7 +215,7 @@ impl Mesh {
     }
 
     /// The mesh with the faces that a plane crosses in two parts.
-    fn split(&self, plane: &SectionPlane, uncut: &[(Named, bool)], tolerance: f64) -> Self {
+    fn split(&self, plane: &SectionPlane, uncut: &[(PatternMatches, bool)], tolerance: f64) -> Self {
         let sides = self.positions.iter().map(|point| plane.side(*point, tolerance)).collect();
         let mut cutter = Cutter::new(self, sides, uncut, true);
         cutter.clip_faces(plane.normal);
@@ -223,7 +223,7 @@ impl Mesh {
     }
 
     /// Cuts away the mesh in front of a plane. Positions within the tolerance lie in the plane.
-    fn cut(&self, plane: &SectionPlane, uncut: &[(Named, bool)], spacing: f64, tolerance: f64) -> (Self, Cut) {
+    fn cut(&self, plane: &SectionPlane, uncut: &[(PatternMatches, bool)], spacing: f64, tolerance: f64) -> (Self, Cut) {
         let sides = |points: &[DVec3]| points.iter().map(|point| plane.side(*point, tolerance)).collect::<Vec<f64>>();
         let (sides, of_curves) = (sides(&self.positions), sides(&self.curves.positions));
         if sides.iter().chain(&of_curves).all(|side| *side <= 0.0) {

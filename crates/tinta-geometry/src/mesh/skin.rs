@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub(super) const EXTENSIONS: [&str; 6] = ["pcx", "png", "tga", "bmp", "jpg", "jpeg"];
 
 /// A picture that a model file names.
-pub(super) struct Found {
+pub(super) struct SkinFile {
     pub lookup: Lookup,
     /// A sentence if a picture beside the model stands for the one named, which lies in another folder or nowhere.
     pub remark: Option<String>,
@@ -24,18 +24,18 @@ pub(super) struct Found {
 /// is not there, with any other extension of a picture. Models name pictures as they lay on their author's disk,
 /// `C:\ART\SKIN.PCX`. The path counts from the folder `below` that of the model, where the file lies that names the picture; then
 /// from the model's. `is_outside` says that the path was found outside the folder already.
-pub(super) fn find(folder: &Folder<'_>, below: &Path, name: &str, is_outside: bool) -> Found {
+pub(super) fn find(folder: &Folder<'_>, below: &Path, name: &str, is_outside: bool) -> SkinFile {
     let mut best = if is_outside { Lookup::Outside } else { Lookup::Nowhere };
     match exactly(folder, below, name) {
         Lookup::Nowhere => {}
         Lookup::Outside => best = Lookup::Outside,
-        here @ Lookup::Here(_) => return Found { lookup: here, remark: None },
+        here @ Lookup::Here(_) => return SkinFile { lookup: here, remark: None },
     }
     let slashes = name.replace('\\', "/");
     let (path, base) = slashes.rsplit_once('/').unwrap_or(("", &slashes));
     match first_here(below, |place| beside(folder, place, base)) {
-        Lookup::Nowhere => Found { lookup: best, remark: None },
-        lookup => Found { remark: stand_in(folder, name, path, &lookup, best == Lookup::Outside), lookup },
+        Lookup::Nowhere => SkinFile { lookup: best, remark: None },
+        lookup => SkinFile { remark: stand_in(folder, name, path, &lookup, best == Lookup::Outside), lookup },
     }
 }
 
@@ -124,7 +124,7 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
         let below = soup.material_folders.get(number).map_or(Path::new(""), PathBuf::as_path);
         let found = known.entry((below, name)).or_insert_with_key(|(below, name)| {
             let name = name.to_string_lossy();
-            let Found { lookup, remark } = find(folder, below, &name, false);
+            let SkinFile { lookup, remark } = find(folder, below, &name, false);
             lost.extend(remark);
             match &lookup {
                 Lookup::Here(_) => {}

@@ -92,7 +92,8 @@ impl Mesh {
     /// a style that lights the side that is seen goes by that.
     fn turn_inward(&mut self, face_normals: &[DVec3]) {
         let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
-        let mut turned = Turned { triangles: &self.triangles, normals, triangle_normals, opposites: HashMap::new() };
+        let mut turned =
+            TwoSidedNormals { triangles: &self.triangles, normals, triangle_normals, opposites: HashMap::new() };
         for (triangle, face) in face_normals.iter().enumerate() {
             if turned.points_inward(triangle, *face) {
                 let corners = turned.triangle_normals[triangle];
@@ -110,7 +111,8 @@ impl Mesh {
         }
         let Coincident { opposite, .. } = coincident(&self.triangles, self.positions.len());
         let sides = fronts_and_backs(&self.triangles, &opposite);
-        let mut turned = Turned { triangles: &self.triangles, normals, triangle_normals, opposites: HashMap::new() };
+        let mut turned =
+            TwoSidedNormals { triangles: &self.triangles, normals, triangle_normals, opposites: HashMap::new() };
         if are_checked {
             // Both sides may share the front's normals.
             sides.as_flattened().iter().for_each(|triangle| turned.drop_inward(*triangle, face_normals));
@@ -154,7 +156,7 @@ impl Mesh {
 }
 
 /// The normals of triangles that show one surface from both sides.
-struct Turned<'a> {
+struct TwoSidedNormals<'a> {
     triangles: &'a [[u32; 3]],
     normals: &'a mut Vec<Vec3>,
     triangle_normals: &'a mut [[u32; 3]],
@@ -162,7 +164,7 @@ struct Turned<'a> {
     opposites: HashMap<u32, u32>,
 }
 
-impl Turned<'_> {
+impl TwoSidedNormals<'_> {
     /// Leaves out the normals of a triangle if all three point to its inner side.
     fn drop_inward(&mut self, triangle: u32, face_normals: &[DVec3]) {
         if self.points_inward(triangle as usize, face_normals[triangle as usize]) {

@@ -30,7 +30,7 @@ const OTHERS: [&[u8]; 5] =
 const MM: [(&str, f64); 5] = [("micron", 1e-3), ("centimeter", 10.0), ("inch", 25.4), ("foot", 304.8), ("meter", 1e3)];
 
 /// What was read; the error is a sentence without the file's name.
-type Read<T> = std::result::Result<T, String>;
+type PackageResult<T> = std::result::Result<T, String>;
 
 /// The name of a material or a colour, and its red, green and blue.
 type Paint = (String, [u8; 3]);
@@ -83,7 +83,7 @@ pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Resul
 
 impl Contents {
     /// Reads the model's part and those that it names, and puts its objects in their places.
-    fn read(&mut self, bytes: &[u8]) -> Read<()> {
+    fn read(&mut self, bytes: &[u8]) -> PackageResult<()> {
         let mut zip = Zip::open(bytes).ok_or("its list of parts is damaged or cut off; is it a 3MF file?")?;
         let (mut unread, mut known) = (vec![MODEL[0].to_owned()], HashSet::new());
         while let Some(part) = unread.pop() {
@@ -104,7 +104,7 @@ impl Contents {
     }
 
     /// Reads the objects of a part.
-    fn read_part(&mut self, xml: &[u8], part: &str) -> Read<()> {
+    fn read_part(&mut self, xml: &[u8], part: &str) -> PackageResult<()> {
         let (mut unit, mut groups, mut group) = (1.0, HashMap::<_, Vec<Paint>>::new(), String::new());
         let xml = text::decoded(xml);
         let mut reader = Reader::from_reader(&*xml);
@@ -161,13 +161,13 @@ impl Contents {
     }
 
     /// Counts an object or a component.
-    fn count_element(&mut self) -> Read<()> {
+    fn count_element(&mut self) -> PackageResult<()> {
         self.elements += 1;
         if self.elements > PLACES { Err(TOO_MUCH.to_owned()) } else { Ok(()) }
     }
 
     /// Puts the build's objects in their places.
-    fn place_all(&mut self, file_bytes: usize) -> Read<()> {
+    fn place_all(&mut self, file_bytes: usize) -> PackageResult<()> {
         let Self { soup, objects, numbers, .. } = self;
         soup.has_copies = true;
         let (mut size, free) = (Size::default(), memory::free());
@@ -243,7 +243,7 @@ fn paint(it: &BytesStart<'_>, [group, number]: &[String; 2], groups: &HashMap<St
 }
 
 /// The object that a component or an item puts somewhere, and where.
-fn place(it: &BytesStart<'_>, part: &str, unit: f64) -> Read<Place> {
+fn place(it: &BytesStart<'_>, part: &str, unit: f64) -> PackageResult<Place> {
     let (path, transform) = (get(it, "path"), get(it, "transform"));
     let of = if path.is_empty() { part } else { path.trim_start_matches('/') };
     let numbers: Vec<f64> = transform.split_ascii_whitespace().map(|word| number(word).unwrap_or(f64::NAN)).collect();

@@ -10,7 +10,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// Where the last face of a scene leaves the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Unseen {
+pub enum UnseenReason {
     /// No face is before the eye.
     Behind,
     /// Those before it lie beside the picture.
@@ -35,8 +35,8 @@ const PLANES: [DVec4; 2] = [DVec4::new(0.0, 0.0, 1.0, 1.0), DVec4::new(0.0, 0.0,
 impl Scene {
     /// Returns why a picture on a surface of this size may show no face; `None` where a face surely covers a pixel's centre.
     /// `culls` says whether faces turned away from the eye are left out.
-    pub fn unseen(&self, surface: Size, culls: bool) -> Option<Unseen> {
-        let mut farthest = Unseen::Behind;
+    pub fn unseen(&self, surface: Size, culls: bool) -> Option<UnseenReason> {
+        let mut farthest = UnseenReason::Behind;
         let (outside, mut seen): (Vec<&Object>, Vec<_>) = self.objects.iter().partition(|it| self.is_outside(it, 0.0));
         if seen.is_empty() {
             seen = outside;
@@ -71,12 +71,12 @@ impl Scene {
 }
 
 /// Where a face with these corners in the eye's space leaves the picture; `None` if it covers a pixel's centre.
-fn reach(view: &[DVec3], clip_from_view: DMat4, surface: Size, culls: bool) -> Option<Unseen> {
+fn reach(view: &[DVec3], clip_from_view: DMat4, surface: Size, culls: bool) -> Option<UnseenReason> {
     if view.iter().all(|corner| corner.z >= 0.0) {
-        return Some(Unseen::Behind);
+        return Some(UnseenReason::Behind);
     }
     let mut clip: Vec<DVec4> = view.iter().map(|corner| clip_from_view * corner.extend(1.0)).collect();
-    for (planes, unseen) in [(&SIDES[..], Unseen::Beside), (&PLANES[..], Unseen::CutOff)] {
+    for (planes, unseen) in [(&SIDES[..], UnseenReason::Beside), (&PLANES[..], UnseenReason::CutOff)] {
         planes.iter().for_each(|plane| clip = inside(&clip, *plane));
         if clip.is_empty() {
             return Some(unseen);
@@ -86,9 +86,9 @@ fn reach(view: &[DVec3], clip_from_view: DMat4, surface: Size, culls: bool) -> O
     let places: Vec<DVec2> = clip.iter().map(|corner| corner.truncate().truncate() / corner.w * half + half).collect();
     let turn = |pair: &[DVec2]| (pair[0] - places[0]).perp_dot(pair[1] - places[0]);
     if culls && places.windows(2).map(turn).sum::<f64>() < 0.0 {
-        return Some(Unseen::TurnedAway);
+        return Some(UnseenReason::TurnedAway);
     }
-    (!covers_a_centre(&places)).then_some(Unseen::BetweenPixels)
+    (!covers_a_centre(&places)).then_some(UnseenReason::BetweenPixels)
 }
 
 /// The part of a convex polygon on the inner side of a plane.
@@ -139,7 +139,7 @@ mod tests {
     use crate::scene::SceneSettings;
     use std::sync::Arc;
 
-    fn unseen(camera: CameraSettings, side: u32) -> Option<Unseen> {
+    fn unseen(camera: CameraSettings, side: u32) -> Option<UnseenReason> {
         let size = Size { width: side, height: side };
         let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings { camera, size, ..Default::default() });
         let scene = scene.unwrap();
@@ -157,18 +157,18 @@ mod tests {
         for parallel in [false, true] {
             let looking = |eye, target| CameraSettings { parallel, ..looking(eye, target) };
             assert_eq!(unseen(looking(front, middle), 64), None);
-            assert_eq!(unseen(looking(front, DVec3::new(0.3, 0.3, 9.0)), 64), Some(Unseen::Behind));
+            assert_eq!(unseen(looking(front, DVec3::new(0.3, 0.3, 9.0)), 64), Some(UnseenReason::Behind));
             let planes = |near, far| CameraSettings { near: Some(near), far: Some(far), ..looking(front, middle) };
-            assert_eq!(unseen(planes(5.5, 9.0), 64), Some(Unseen::CutOff));
-            assert_eq!(unseen(planes(1.0, 4.5), 64), Some(Unseen::CutOff));
+            assert_eq!(unseen(planes(5.5, 9.0), 64), Some(UnseenReason::CutOff));
+            assert_eq!(unseen(planes(1.0, 4.5), 64), Some(UnseenReason::CutOff));
             assert_eq!(unseen(planes(4.0, 6.0), 64), None);
-            assert_eq!(unseen(looking(DVec3::new(0.3, 0.3, -5.0), middle), 64), Some(Unseen::TurnedAway));
+            assert_eq!(unseen(looking(DVec3::new(0.3, 0.3, -5.0), middle), 64), Some(UnseenReason::TurnedAway));
         }
         // In parallel projection the fitted height shows the model wherever it is.
-        assert_eq!(unseen(looking(front, DVec3::new(30.0, 0.3, 0.0)), 64), Some(Unseen::Beside));
+        assert_eq!(unseen(looking(front, DVec3::new(30.0, 0.3, 0.0)), 64), Some(UnseenReason::Beside));
         // From aside: planes fitted to a face across the view are too close for f32.
         let far_off = looking(DVec3::new(300.0, 0.3, 850.0), middle);
-        assert_eq!(unseen(far_off.clone(), 64), Some(Unseen::BetweenPixels));
+        assert_eq!(unseen(far_off.clone(), 64), Some(UnseenReason::BetweenPixels));
         assert_eq!(unseen(CameraSettings { fov_y_degrees: 0.1, ..far_off }, 64), None);
     }
 
@@ -182,7 +182,7 @@ mod tests {
         };
         assert_eq!(unseen(CameraSettings { near: Some(2.0), far: Some(9.0), ..camera(2.0) }, 64), None);
         assert_eq!(unseen(camera(4.3), 512), None);
-        assert_eq!(unseen(camera(2.0), 512), Some(Unseen::CutOff));
+        assert_eq!(unseen(camera(2.0), 512), Some(UnseenReason::CutOff));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::svg::{data, drawing, names, points};
 use glam::DVec2;
 use std::collections::BTreeMap;
 use std::process::Command;
-use tinta::lines::{Hidden, PageSize, dxf, svg};
+use tinta::lines::{HiddenLines, PageSize, dxf, svg};
 use tinta::{DrawingSettings, LineSettings, VisibleLines};
 
 /// Polylines by layer, each with whether it is closed, in the file's order.
@@ -70,7 +70,9 @@ fn a_dxf_has_the_polylines_of_the_svg_once_each_in_millimetres() {
     let mut compared = 0;
     for lines in drawings() {
         for page_size in [PageSize::Unset, PageSize::WidthMm(180.0), paper] {
-            for (hidden, is_for_pen) in [(Hidden::None, false), (Hidden::Ghost, false), (Hidden::Dashed, true)] {
+            for (hidden, is_for_pen) in
+                [(HiddenLines::None, false), (HiddenLines::Ghost, false), (HiddenLines::Dashed, true)]
+            {
                 let settings = DrawingSettings { page_size, hidden, is_for_pen, ..DrawingSettings::default() };
                 let text = dxf(&lines, &settings).unwrap();
                 assert_eq!(text, dxf(&lines, &settings).unwrap());
@@ -115,7 +117,8 @@ fn ezdxf_reads_the_same_polylines_and_finds_nothing_to_repair() {
     let folder = Folder::new();
     let (mut names, mut expected) = (Vec::new(), String::new());
     for (number, lines) in drawings().iter().enumerate() {
-        let settings = DrawingSettings { hidden: Hidden::Dashed, page_size: PageSize::Dpi(96.0), ..Default::default() };
+        let settings =
+            DrawingSettings { hidden: HiddenLines::Dashed, page_size: PageSize::Dpi(96.0), ..Default::default() };
         let text = dxf(lines, &settings).unwrap();
         names.push(folder.file(&format!("{number}.dxf"), text.as_bytes()));
         let layers = read(&text);

@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::cell::Cell;
 use std::sync::Arc;
 use tinta::edges::{Class, ClassSet};
-use tinta::lines::{Hidden, LineSegment, PageSize, PartRules, drawn_layers, svg};
+use tinta::lines::{HiddenLines, LineSegment, PageSize, PartRules, drawn_layers, svg};
 use tinta::mesh::NamedPart;
 use tinta::settings::Value as _;
 use tinta::{CameraSettings, DrawingSettings, LineSettings, Mesh, Scene, SceneSettings, VisibleLines};
@@ -232,7 +232,7 @@ fn the_last_rule_of_each_setting_counts_and_hidden_lines_follow() {
         arm.iter().filter(|it| it.layer.is_visible()).all(|it| it.color.to_string() == "#0000ff" && it.width_px == 4.0)
     );
     assert!(others.iter().filter(|it| it.layer.is_visible()).all(|it| it.color.to_string() == "#ff0000"));
-    assert_eq!(lines.drawing(0, &drawing).hidden, Hidden::None);
+    assert_eq!(lines.drawing(0, &drawing).hidden, HiddenLines::None);
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn on_paper_hidden_lines_are_dashed_and_ghosts_chain_lines_in_line_widths() {
     for (page_size, ghost, hidden) in [(PageSize::Unset, 0, 6.0), (paper, 6, 11.0)] {
         let drawing = DrawingSettings {
             page_size,
-            hidden: Hidden::Dashed,
+            hidden: HiddenLines::Dashed,
             min_length: Some("0".parse().unwrap()),
             ..DrawingSettings::default()
         };

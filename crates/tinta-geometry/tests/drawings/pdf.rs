@@ -4,7 +4,7 @@ use crate::support::drawn::lines;
 use crate::svg::{data, drawing, names, points};
 use glam::DVec2;
 use tinta::DrawingSettings;
-use tinta::lines::{Hidden, PageSize, pdf, svg};
+use tinta::lines::{HiddenLines, PageSize, pdf, svg};
 
 /// The file as text, a byte a letter, and its page's content.
 fn read(bytes: &[u8]) -> (String, String) {
@@ -33,7 +33,7 @@ fn paths(content: &str) -> Vec<(Vec<DVec2>, bool)> {
 }
 
 fn settings() -> DrawingSettings {
-    DrawingSettings { title: "A é (drawing)".to_owned(), hidden: Hidden::Dashed, ..DrawingSettings::default() }
+    DrawingSettings { title: "A é (drawing)".to_owned(), hidden: HiddenLines::Dashed, ..DrawingSettings::default() }
 }
 
 fn media_box(text: &str) -> Vec<f64> {

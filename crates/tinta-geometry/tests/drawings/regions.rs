@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 use tinta::camera::Projection;
 use tinta::lines::{
-    Areas, Hit, Joined, Progress, Region, Regions, SeenFace, Sight, Surface, ToneLight, ToneRule, TonedSurface, fills,
+    Areas, Hit, JoinKey, Progress, Region, Regions, SeenFace, Sight, Surface, ToneLight, ToneRule, TonedSurface, fills,
     first_hits, painted, svg_of_paths,
 };
 use tinta::mesh::NONE;
@@ -24,7 +24,7 @@ use tinta::{CameraSettings, Color, DrawingSettings, Error, LoadOptions, Scene, S
 const NEAR_BORDER_PX: f64 = 0.01;
 
 #[derive(Debug, Default)]
-struct Checked {
+struct RegionTally {
     pixels: usize,
     near_borders: usize,
     /// Regions whose rings touch one another.
@@ -34,7 +34,7 @@ struct Checked {
 }
 
 /// Compares the regions of all pixels with rays. Panics where the regions do not fill the picture exactly once.
-fn check(name: &str, scene: &Scene) -> Checked {
+fn check(name: &str, scene: &Scene) -> RegionTally {
     let seen = |hit: Hit| SeenFace { object: hit.object, face: hit.face };
     check_labels(name, scene, &Regions::of(scene).unwrap(), seen, |hit, label| touches(scene, world(scene, hit), label))
 }
@@ -46,7 +46,7 @@ fn check_labels<T: Copy + PartialEq + std::fmt::Debug>(
     found: &Regions<Option<T>>,
     label: impl Fn(Hit) -> T,
     is_as_right: impl Fn(&Hit, T) -> bool,
-) -> Checked {
+) -> RegionTally {
     assert_eq!(found.broken, 0, "{name}");
     let size = [scene.size.width as usize, scene.size.height as usize];
     let whole = (size[0] * size[1]) as f64;
@@ -62,7 +62,7 @@ fn check_labels<T: Copy + PartialEq + std::fmt::Debug>(
             region_of[pixel] = number;
         });
     }
-    let mut checked = Checked { pixels: region_of.len(), touching, ..Checked::default() };
+    let mut checked = RegionTally { pixels: region_of.len(), touching, ..RegionTally::default() };
     for (pixel, (number, hit)) in region_of.into_iter().zip(first_hits(scene)).enumerate() {
         assert_ne!(number, usize::MAX, "{name}: no region at {pixel}");
         let seen = found.regions[number].seen;
@@ -163,7 +163,7 @@ fn distance(corners: &[DVec2], px: DVec2) -> f64 {
 }
 
 fn check_families(count: u64) {
-    let mut all = Checked::default();
+    let mut all = RegionTally::default();
     for seed in 1..=count {
         let mut random = Random::seeded(seed);
         let (name, scene) = scene_of_kind(seed as usize, &mut random);
@@ -172,7 +172,7 @@ fn check_families(count: u64) {
     judge(&all);
 }
 
-fn add(all: &mut Checked, one: Checked) {
+fn add(all: &mut RegionTally, one: RegionTally) {
     all.pixels += one.pixels;
     all.near_borders += one.near_borders;
     all.wrong += one.wrong;
@@ -183,7 +183,7 @@ fn add(all: &mut Checked, one: Checked) {
     }
 }
 
-fn judge(all: &Checked) {
+fn judge(all: &RegionTally) {
     println!("{} pixels, {} near borders differ, {} wrong {}", all.pixels, all.near_borders, all.wrong, all.example);
     assert!(all.pixels > 0 && all.wrong as f64 <= 1e-5 * all.pixels as f64, "{all:?}");
 }
@@ -203,7 +203,7 @@ fn regions_of_many_scenes_are_the_faces_that_rays_hit() {
 /// what is seen in a whole cell.
 #[test]
 fn regions_of_crowded_families_are_the_faces_that_rays_hit() {
-    let mut all = Checked::default();
+    let mut all = RegionTally::default();
     for family in FAMILIES.iter().filter(|family| family.name != "twins") {
         let count = if family.name == "soup" { 1_000 } else { 300 };
         let scene = scene_of_family(family, count);
@@ -216,7 +216,7 @@ fn regions_of_crowded_families_are_the_faces_that_rays_hit() {
 
 fn check_models(names: &[&str], views: &[CameraSettings]) {
     let models = public_meshes(names);
-    let mut all = Checked::default();
+    let mut all = RegionTally::default();
     for (name, mesh) in &models {
         for camera in views {
             let settings = SceneSettings { camera: camera.clone(), ..SceneSettings::default() };
@@ -294,8 +294,8 @@ fn rules() -> [ToneRule; 3] {
     ]
 }
 
-fn check_tones(name: &str, scene: &Scene) -> Checked {
-    let mut all = Checked::default();
+fn check_tones(name: &str, scene: &Scene) -> RegionTally {
+    let mut all = RegionTally::default();
     for rule in rules() {
         let found = Regions::toned(&Sight::of(scene), &rule, &Progress::default()).unwrap();
         let surface = |hit: Hit| TonedSurface { object: hit.object, material: NONE, tone: tone(scene, &rule, &hit) };
@@ -361,7 +361,7 @@ fn numbers_that_overflow_end_in_no_panic() {
 
 #[test]
 fn tones_of_public_models_are_those_that_rays_find() {
-    let mut all = Checked::default();
+    let mut all = RegionTally::default();
     let models = public_meshes(&["cow.obj", "teapot.obj", "suzanne.obj"]);
     for (name, mesh) in &models {
         // Without materials, which are no part of the comparison.
@@ -375,11 +375,11 @@ fn tones_of_public_models_are_those_that_rays_find() {
 }
 
 /// What a region joined so shows where a face is seen.
-fn surface(scene: &Scene, seen: SeenFace, joined: Joined) -> Surface {
+fn surface(scene: &Scene, seen: SeenFace, joined: JoinKey) -> Surface {
     let mesh = &scene.objects[seen.object as usize].mesh;
     let material = mesh.triangle_materials.get(seen.face as usize).copied().filter(|material| *material != NONE);
-    let material = material.filter(|_| joined != Joined::Object);
-    let face = (joined == Joined::Face).then(|| mesh.file_face(seen.face));
+    let material = material.filter(|_| joined != JoinKey::Object);
+    let face = (joined == JoinKey::Face).then(|| mesh.file_face(seen.face));
     Surface { object: seen.object, material, tone: None, face }
 }
 
@@ -395,10 +395,10 @@ fn border(regions: &[&Vec<Vec<DVec2>>]) -> BTreeSet<[[u64; 2]; 2]> {
 }
 
 /// Joined regions show what rays hit, and fill the picture; the outline of an object is that of all of its regions.
-fn check_joined(name: &str, scene: &Scene) -> Checked {
-    let mut all = Checked::default();
+fn check_joined(name: &str, scene: &Scene) -> RegionTally {
+    let mut all = RegionTally::default();
     let of_faces = Regions::of(scene).unwrap();
-    for joined in [Joined::Face, Joined::Material, Joined::Object] {
+    for joined in [JoinKey::Face, JoinKey::Material, JoinKey::Object] {
         let found = Regions::joined_by(&Sight::of(scene), joined, &Progress::default()).unwrap();
         let label = |hit: Hit| surface(scene, SeenFace { object: hit.object, face: hit.face }, joined);
         let is_as_right = |hit: &Hit, seen: Surface| {
@@ -432,7 +432,7 @@ fn check_joined(name: &str, scene: &Scene) -> Checked {
 
 #[test]
 fn joined_regions_of_every_family_show_what_rays_hit() {
-    let mut all = Checked::default();
+    let mut all = RegionTally::default();
     for seed in 1..=KINDS as u64 {
         let mut random = Random::seeded(seed);
         let (name, scene) = scene_of_kind(seed as usize, &mut random);
@@ -443,7 +443,7 @@ fn joined_regions_of_every_family_show_what_rays_hit() {
 
 #[test]
 fn joined_regions_of_public_models_show_what_rays_hit() {
-    let mut all = Checked::default();
+    let mut all = RegionTally::default();
     let models = public_meshes(&["cow.obj", "teapot.obj", "suzanne.obj", "doll.obj"]);
     for (name, mesh) in &models {
         let camera = view("30,23", false);
@@ -467,7 +467,7 @@ fn the_triangles_of_a_polygon_are_one_region() {
     let mesh = tinta::Mesh::of_polygons("a box", positions, &corners, sizes, &LoadOptions::default()).unwrap();
     let settings = SceneSettings { camera: view("30,30", true), ..SceneSettings::default() };
     let scene = Scene::new([mesh], &settings).unwrap();
-    let found = Regions::joined_by(&Sight::of(&scene), Joined::Face, &Progress::default()).unwrap();
+    let found = Regions::joined_by(&Sight::of(&scene), JoinKey::Face, &Progress::default()).unwrap();
     let mut seen: Vec<_> = found.regions.iter().filter_map(|region| region.seen?.face).collect();
     seen.sort_unstable();
     assert_eq!(seen, [2, 4, 6], "in front, on top, on the right");
@@ -511,7 +511,7 @@ fn a_hole_that_touches_its_outline_in_a_corner_is_a_ring_of_its_own() {
     let before = at([[1.0, 0.0], [0.5, 0.5], [0.0, 0.0], [0.5, -0.5]], 1.0);
     let settings = SceneSettings { camera: view("front", true), ..SceneSettings::default() };
     let scene = Scene::new([square, before], &settings).unwrap();
-    let found = Regions::joined_by(&Sight::of(&scene), Joined::Object, &Progress::default()).unwrap();
+    let found = Regions::joined_by(&Sight::of(&scene), JoinKey::Object, &Progress::default()).unwrap();
     let square = found.regions.iter().find(|it| it.seen.is_some_and(|seen| seen.object == 0)).unwrap();
     assert!(has_valid_rings(square, "square"), "its rings touch");
     assert_eq!(square.loops.iter().map(Vec::len).collect::<Vec<_>>(), [5, 4]);

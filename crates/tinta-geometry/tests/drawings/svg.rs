@@ -7,7 +7,7 @@ use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
 use std::collections::BTreeSet;
 use tinta::edges::Class;
-use tinta::lines::{Hidden, Length, LineSegment, PageSize, ScenePart, raster, svg};
+use tinta::lines::{HiddenLines, Length, LineSegment, PageSize, ScenePart, raster, svg};
 use tinta::{Background, Color, DrawingSettings, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -57,7 +57,7 @@ fn rgba(pixels: &tiny_skia::Pixmap, x: u32, y: u32) -> [u8; 4] {
 #[test]
 fn pixels_of_lines_are_those_that_another_renderer_makes_of_their_svg() {
     let settings = DrawingSettings::default();
-    for hidden in [Hidden::None, Hidden::Dashed, Hidden::Ghost] {
+    for hidden in [HiddenLines::None, HiddenLines::Dashed, HiddenLines::Ghost] {
         for background in [Background::Color(Color([1.0; 3])), Background::Transparent] {
             let settings =
                 DrawingSettings { hidden, background, line_width: Some(Length::Px(3.0)), ..settings.clone() };
@@ -83,7 +83,7 @@ fn pixels_of_lines_are_those_that_another_renderer_makes_of_their_svg() {
 
 #[test]
 fn layers_are_groups_by_class_and_visibility_with_the_hidden_ones_below() {
-    let text = svg(&drawing(), &DrawingSettings { hidden: Hidden::Dashed, ..DrawingSettings::default() }).unwrap();
+    let text = svg(&drawing(), &DrawingSettings { hidden: HiddenLines::Dashed, ..DrawingSettings::default() }).unwrap();
     let document = Document::parse(&text).unwrap();
     let root = document.root_element();
     assert_eq!(root.attribute("viewBox"), Some("0 0 120 80"));
@@ -105,7 +105,7 @@ fn layers_are_groups_by_class_and_visibility_with_the_hidden_ones_below() {
 fn each_of_several_parts_is_a_group_with_an_id_and_a_title_and_the_picture_stays() {
     let mut whole = drawing();
     (0..).zip(&mut whole.segments).for_each(|(number, segment)| segment.part = number % 3);
-    let settings = DrawingSettings { hidden: Hidden::Ghost, ..DrawingSettings::default() };
+    let settings = DrawingSettings { hidden: HiddenLines::Ghost, ..DrawingSettings::default() };
     let of_pen = DrawingSettings { is_for_pen: true, ..settings.clone() };
     let (plain, plain_of_pen) = (svg(&whole, &settings).unwrap(), svg(&whole, &of_pen).unwrap());
     let parted = |parts: [[&str; 2]; 3]| {
@@ -169,7 +169,7 @@ fn pieces_are_chained_and_written_short() {
 
 #[test]
 fn the_same_lines_are_the_same_bytes() {
-    let settings = DrawingSettings { hidden: Hidden::Ghost, ..DrawingSettings::default() };
+    let settings = DrawingSettings { hidden: HiddenLines::Ghost, ..DrawingSettings::default() };
     for is_for_pen in [false, true] {
         let settings = DrawingSettings { is_for_pen, ..settings.clone() };
         assert_eq!(svg(&drawing(), &settings).unwrap(), svg(&drawing(), &settings).unwrap());
@@ -183,7 +183,7 @@ fn every_number_is_finite_and_inside_the_picture() {
     edge_cases.segments.push(segment(Class::Boundary, true, [-0.0, -1e-9], [120.0, border]));
     edge_cases.segments.push(segment(Class::Boundary, true, [60.0, 1e-300], [60.0, 2e-300]));
     for is_for_pen in [false, true] {
-        let settings = DrawingSettings { hidden: Hidden::Dashed, is_for_pen, ..DrawingSettings::default() };
+        let settings = DrawingSettings { hidden: HiddenLines::Dashed, is_for_pen, ..DrawingSettings::default() };
         let text = svg(&edge_cases, &settings).unwrap();
         assert!(!text.contains("NaN") && !text.contains("inf") && !text.contains("-0"), "{text}");
         for layer in names(&text) {
@@ -227,7 +227,7 @@ fn another_renderer_draws_the_lines_where_they_are() {
     let mut settings = DrawingSettings {
         class_colors: "crease=red,hidden=red".parse().unwrap(),
         class_widths: "silhouette=6,hidden=2".parse().unwrap(),
-        hidden: Hidden::Ghost,
+        hidden: HiddenLines::Ghost,
         ..DrawingSettings::default()
     };
     let pixels = rendered(&svg(&drawing(), &settings).unwrap(), 1.0);
@@ -241,7 +241,7 @@ fn another_renderer_draws_the_lines_where_they_are() {
     assert!(red == 255 && (170..190).contains(&green), "crease, hidden: {red} {green}");
     let transparent = DrawingSettings { background: Background::Transparent, ..settings.clone() };
     assert_eq!(rgba(&rendered(&svg(&drawing(), &transparent).unwrap(), 1.0), 5, 5)[3], 0);
-    settings.hidden = Hidden::Dashed;
+    settings.hidden = HiddenLines::Dashed;
     let pixels = rendered(&svg(&drawing(), &settings).unwrap(), 1.0);
     let greens: Vec<u8> = (55..95).map(|x| rgba(&pixels, x, 40)[1]).collect();
     assert!(greens.contains(&0) && greens.contains(&255), "dashes and gaps: {greens:?}");
@@ -263,7 +263,7 @@ fn a_pens_lines_come_in_an_order_that_spares_the_way() {
     let ((count, unsorted), (sorted_count, sorted)) = (travel(false), travel(true));
     assert_eq!(count, sorted_count);
     assert!(sorted < unsorted * 0.3, "{sorted} {unsorted}");
-    let hidden = DrawingSettings { is_for_pen: true, hidden: Hidden::Dashed, ..DrawingSettings::default() };
+    let hidden = DrawingSettings { is_for_pen: true, hidden: HiddenLines::Dashed, ..DrawingSettings::default() };
     let text = svg(&drawing(), &hidden).unwrap();
     assert!(data(&text, "hidden-crease").len() > 20 && !text.contains("stroke-dasharray"));
 }
@@ -317,7 +317,8 @@ fn an_outline_is_a_layer_of_its_own_above_the_others_whatever_its_classes() {
 fn on_paper_the_viewbox_is_the_sheet_and_widths_are_millimetres() {
     let page_size = PageSize::Paper("A4-portrait".parse().unwrap());
     let class_widths = "crease=0.25mm,hidden=0.1mm".parse().unwrap();
-    let settings = DrawingSettings { page_size, class_widths, hidden: Hidden::Ghost, ..DrawingSettings::default() };
+    let settings =
+        DrawingSettings { page_size, class_widths, hidden: HiddenLines::Ghost, ..DrawingSettings::default() };
     let text = svg(&drawing(), &settings).unwrap();
     let document = Document::parse(&text).unwrap();
     let root = document.root_element();

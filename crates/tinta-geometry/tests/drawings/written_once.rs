@@ -5,7 +5,7 @@ use crate::support::lines::{assert_near, scene_of, total, view};
 use crate::support::shapes::{Random, cuboid};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
-use tinta::lines::{Hidden, PageSize, chain, dxf, svg};
+use tinta::lines::{HiddenLines, PageSize, chain, dxf, svg};
 use tinta::{CameraSettings, DrawingSettings, LineSettings, Scene, SceneSettings, VisibleLines};
 
 /// The stretches of the paths of an SVG, in thousandths of pixels.
@@ -104,7 +104,7 @@ fn in_drawings_of_every_family_nothing_is_written_twice_and_nothing_is_lost() {
                 let lines =
                     VisibleLines::of(scene, &LineSettings { finds_hidden: true, ..Default::default() }).unwrap();
                 let settings = DrawingSettings {
-                    hidden: Hidden::Ghost,
+                    hidden: HiddenLines::Ghost,
                     min_length: Some("0".parse().unwrap()),
                     ..Default::default()
                 };

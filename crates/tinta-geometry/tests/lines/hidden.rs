@@ -5,7 +5,7 @@ use crate::support::shapes::{Random, cuboid, joined, mesh};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tinta::edges::Class;
-use tinta::lines::{Hidden, Layer, LineSettings, VisibleLines, chain, drawn_layers, svg};
+use tinta::lines::{HiddenLines, Layer, LineSettings, VisibleLines, chain, drawn_layers, svg};
 use tinta::mesh::SectionPlane;
 use tinta::{DrawingSettings, Mesh, Scene};
 
@@ -65,13 +65,14 @@ fn a_hidden_line_is_drawn_from_where_no_other_lies_on_it() {
     // overlapping.
     let unit = unit(&scene, DVec3::X);
     assert_near(hidden(&found)[0], (3.0 + 2.0 + 2.0 + 5.0) * unit, NEAR, "drawn");
-    let drawn: f64 = drawn_layers(&found, &DrawingSettings { hidden: Hidden::Dashed, ..DrawingSettings::default() })
-        .unwrap()
-        .iter()
-        .filter(|layer| !layer.layer.is_visible())
-        .flat_map(|layer| &layer.paths)
-        .flat_map(|path| path.points_px.windows(2).map(|pair| pair[0].distance(pair[1])).collect::<Vec<_>>())
-        .sum();
+    let drawn: f64 =
+        drawn_layers(&found, &DrawingSettings { hidden: HiddenLines::Dashed, ..DrawingSettings::default() })
+            .unwrap()
+            .iter()
+            .filter(|layer| !layer.layer.is_visible())
+            .flat_map(|layer| &layer.paths)
+            .flat_map(|path| path.points_px.windows(2).map(|pair| pair[0].distance(pair[1])).collect::<Vec<_>>())
+            .sum();
     assert_near(drawn, 12.0 * unit, 1e-3, "in layers");
 }
 
@@ -107,7 +108,7 @@ fn what_is_covered_is_in_no_path_and_no_file() {
     let found = lines(&scene);
     assert!(found.segments.iter().filter(|segment| !segment.is_visible).all(|segment| segment.is_covered));
     assert!(chain(&found.segments).iter().all(|path| path.is_visible));
-    for hidden in [Hidden::Dashed, Hidden::Ghost] {
+    for hidden in [HiddenLines::Dashed, HiddenLines::Ghost] {
         for is_for_pen in [false, true] {
             let settings = DrawingSettings { hidden, is_for_pen, ..DrawingSettings::default() };
             let layers = drawn_layers(&found, &settings).unwrap();

@@ -3,7 +3,7 @@
 //!
 //! The rays run in f64 and world space, each against every face, with no formula of the library.
 
-use crate::rays::{Creases, Found, Rays};
+use crate::rays::{Creases, RayFindings, Rays};
 use crate::same::difference;
 use crate::support::families::{KINDS, scene_of_kind};
 use crate::support::growth::FAMILIES;
@@ -20,7 +20,7 @@ use tinta::lines::LineSettings;
 use tinta::{Mesh, Scene};
 
 /// Checks a scene and notes its faults.
-fn note(name: &str, scene: &Scene, creases: Creases, random: &mut Random, all: &mut Found) {
+fn note(name: &str, scene: &Scene, creases: Creases, random: &mut Random, all: &mut RayFindings) {
     let found = Rays::new(scene, creases).check(random);
     let first = |wrong: &String| format!("{name}, {creases:?}: {} wrong, the first: {wrong}", found.wrong.len());
     all.wrong.extend(found.wrong.first().map(first));
@@ -28,7 +28,7 @@ fn note(name: &str, scene: &Scene, creases: Creases, random: &mut Random, all: &
 }
 
 /// Asserts that no scene has a fault, that hidden and visible points were both tested, and that few remained undecided.
-fn judge(mut all: Found, scenes: usize) {
+fn judge(mut all: RayFindings, scenes: usize) {
     println!("{} of {scenes} scenes fail; {}", all.wrong.len(), all.summary());
     let failed = all.wrong.len();
     all.wrong.truncate(40);
@@ -40,7 +40,7 @@ fn judge(mut all: Found, scenes: usize) {
 
 /// Checks the scenes of seeds 1 to `count`, each kind with both limits of creases.
 fn check(count: u64) {
-    let mut all = Found::default();
+    let mut all = RayFindings::default();
     for seed in 1..=count {
         let mut random = Random::seeded(seed);
         let (name, scene) = scene_of_kind(seed as usize, &mut random);
@@ -68,7 +68,7 @@ fn squeezed(mut scene: Scene, axis: usize, times: f64) -> Scene {
 #[ignore = "counts: exactness.md says how many of 2,000 scenes squeezed by TINTA_SQUEEZE are wrong, 10,000 by default"]
 fn of_scenes_squeezed_along_an_axis_some_are_wrong() {
     let times = std::env::var("TINTA_SQUEEZE").map_or(10_000.0, |times| times.parse().expect("a number"));
-    let (count, mut all) = (scenes_wanted().unwrap_or(2000), Found::default());
+    let (count, mut all) = (scenes_wanted().unwrap_or(2000), RayFindings::default());
     for seed in 1..=count {
         let mut random = Random::seeded(seed);
         let (name, scene) = scene_of_kind(seed as usize, &mut random);
@@ -98,7 +98,7 @@ fn something_lies_in_front_of_hidden_lines_of_many_scenes_and_nothing_in_front_o
 
 #[test]
 fn of_every_family_what_rays_see_is_drawn() {
-    let (mut all, mut random) = (Found::default(), Random::seeded(26));
+    let (mut all, mut random) = (RayFindings::default(), Random::seeded(26));
     // In `twins`, a part of an edge lies so close to another's face for so long that it touches it, and is hidden with the parts
     // behind.
     for family in FAMILIES.iter().filter(|family| family.name != "twins") {
@@ -112,7 +112,7 @@ fn of_every_family_what_rays_see_is_drawn() {
 #[test]
 fn lines_that_cannot_be_told_apart_in_the_picture_are_drawn_once() {
     // Two of 20,000 random scenes have cuts that close to one another.
-    let mut all = Found::default();
+    let mut all = RayFindings::default();
     for seed in [287_756_342_340_050_861, 7_113_230_251_776_330_223] {
         let mut random = Random::seeded(seed);
         let scene = random_scene(3, &mut random);
@@ -124,7 +124,7 @@ fn lines_that_cannot_be_told_apart_in_the_picture_are_drawn_once() {
 const ALL_VIEWS: [&str; 6] = ["front", "back", "left", "right", "top", "bottom"];
 
 fn check_models<'a>(models: impl IntoIterator<Item = (&'a str, Mesh)>, views: &[&str]) {
-    let (mut all, mut scenes) = (Found::default(), 0);
+    let (mut all, mut scenes) = (RayFindings::default(), 0);
     for (name, mesh) in models {
         for (number, at) in views.iter().enumerate() {
             for parallel in [true, false] {

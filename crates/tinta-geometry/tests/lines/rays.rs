@@ -99,7 +99,7 @@ impl Creases {
 }
 
 #[derive(Debug, Default, Clone)]
-pub struct Found {
+pub struct RayFindings {
     /// Tested points of hidden and visible segments, and the undecided ones among them.
     pub hidden: usize,
     pub visible: usize,
@@ -112,7 +112,7 @@ pub struct Found {
     pub wrong: Vec<String>,
 }
 
-impl Found {
+impl RayFindings {
     pub fn add(&mut self, other: &Self) {
         self.hidden += other.hidden;
         self.visible += other.visible;
@@ -334,9 +334,9 @@ impl<'a> Rays<'a> {
     }
 
     /// Tests points of all segments, all edges, and all places where faces pass through one another.
-    pub fn check(&self, random: &mut Random) -> Found {
+    pub fn check(&self, random: &mut Random) -> RayFindings {
         let lines = &self.creases.lines(self.scene);
-        let mut found = Found::default();
+        let mut found = RayFindings::default();
         for piece in lines.segments.iter().filter(|piece| length(piece) > 3.0 * FROM_ENDS_PX) {
             self.check_piece(piece, lines, random, &mut found);
         }
@@ -345,7 +345,7 @@ impl<'a> Rays<'a> {
         found
     }
 
-    fn check_piece(&self, piece: &LineSegment, lines: &VisibleLines, random: &mut Random, found: &mut Found) {
+    fn check_piece(&self, piece: &LineSegment, lines: &VisibleLines, random: &mut Random, found: &mut RayFindings) {
         let Some(line) = self.line(piece) else {
             found.wrong.push(format!("neither edge nor intersection: {piece:?}"));
             return;

@@ -24,44 +24,44 @@ pub struct Family {
     /// One of about so many triangles.
     pub make: fn(usize) -> Shape,
     /// The view.
-    pub seen: Seen,
+    pub seen: FamilyView,
 }
 
 /// From where a family is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Seen {
+pub enum FamilyView {
     /// The default view.
     Aslant,
     /// Along the z axis in parallel projection, where equal parts lie on one another.
     Along,
 }
 
-const fn family(name: &'static str, what: &'static str, make: fn(usize) -> Shape, seen: Seen) -> Family {
+const fn family(name: &'static str, what: &'static str, make: fn(usize) -> Shape, seen: FamilyView) -> Family {
     Family { name, what, make, seen }
 }
 
 /// All of them.
 pub const FAMILIES: [Family; 20] = [
-    family("soup", "random triangles as large as the scene", soup, Seen::Aslant),
-    family("confetti", "random triangles of a tenth of the scene", confetti, Seen::Aslant),
-    family("coplanar", "rectangles that overlap in four planes", coplanar, Seen::Aslant),
-    family("book", "triangles around one edge", book, Seen::Aslant),
-    family("pages", "the same, seen along the edge", pages, Seen::Along),
-    family("fan", "triangles around one corner, that pass through others", fan, Seen::Aslant),
-    family("comb", "a comb of many teeth, extruded", comb, Seen::Aslant),
-    family("honeycomb", "hexagonal cells of thin walls", honeycomb, Seen::Aslant),
-    family("grille", "a plate with square holes", grille, Seen::Aslant),
-    family("waffle", "sheets that all pass through one another", waffle, Seen::Aslant),
-    family("hair", "thin triangles as long as the scene, in all directions", hair, Seen::Aslant),
-    family("shells", "spheres inside one another", shells, Seen::Aslant),
-    family("building", "slabs, walls and columns, flush with one another", building, Seen::Aslant),
-    family("assembly", "plates with bolts, nuts and washers through them", assembly, Seen::Aslant),
-    family("rail", "a row of thin squares, seen aslant", rail, Seen::Aslant),
-    family("row", "equal fins behind one another", row, Seen::Along),
-    family("lattice", "square bars in three directions, flush where they cross", lattice, Seen::Along),
-    family("spokes", "bars from one axis, through one another", spokes, Seen::Aslant),
-    family("sticks", "long bars in a heap, through one another", sticks, Seen::Aslant),
-    family("twins", "cubes in one place but for a thousandth", twins, Seen::Aslant),
+    family("soup", "random triangles as large as the scene", soup, FamilyView::Aslant),
+    family("confetti", "random triangles of a tenth of the scene", confetti, FamilyView::Aslant),
+    family("coplanar", "rectangles that overlap in four planes", coplanar, FamilyView::Aslant),
+    family("book", "triangles around one edge", book, FamilyView::Aslant),
+    family("pages", "the same, seen along the edge", pages, FamilyView::Along),
+    family("fan", "triangles around one corner, that pass through others", fan, FamilyView::Aslant),
+    family("comb", "a comb of many teeth, extruded", comb, FamilyView::Aslant),
+    family("honeycomb", "hexagonal cells of thin walls", honeycomb, FamilyView::Aslant),
+    family("grille", "a plate with square holes", grille, FamilyView::Aslant),
+    family("waffle", "sheets that all pass through one another", waffle, FamilyView::Aslant),
+    family("hair", "thin triangles as long as the scene, in all directions", hair, FamilyView::Aslant),
+    family("shells", "spheres inside one another", shells, FamilyView::Aslant),
+    family("building", "slabs, walls and columns, flush with one another", building, FamilyView::Aslant),
+    family("assembly", "plates with bolts, nuts and washers through them", assembly, FamilyView::Aslant),
+    family("rail", "a row of thin squares, seen aslant", rail, FamilyView::Aslant),
+    family("row", "equal fins behind one another", row, FamilyView::Along),
+    family("lattice", "square bars in three directions, flush where they cross", lattice, FamilyView::Along),
+    family("spokes", "bars from one axis, through one another", spokes, FamilyView::Aslant),
+    family("sticks", "long bars in a heap, through one another", sticks, FamilyView::Aslant),
+    family("twins", "cubes in one place but for a thousandth", twins, FamilyView::Aslant),
 ];
 
 /// Numbers that are the same everywhere (Marsaglia's xorshift).

@@ -1,6 +1,6 @@
 //! Shared parts of the tests of visible lines: scenes of meshes, separate projections, sums of lengths.
 
-use super::growth::{Family, Seen};
+use super::growth::{Family, FamilyView};
 use super::shapes::{Random, mesh};
 use glam::{DMat3, DVec2, DVec3};
 use tinta::camera::Projection;
@@ -24,8 +24,8 @@ pub fn scene_of(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
 pub fn scene_of_family(family: &Family, triangles: usize) -> Scene {
     let shape = (family.make)(triangles);
     let camera = match family.seen {
-        Seen::Aslant => view("30,20", false),
-        Seen::Along => view("0,0", true),
+        FamilyView::Aslant => view("30,20", false),
+        FamilyView::Along => view("0,0", true),
     };
     scene_of(vec![mesh(shape.positions, shape.triangles)], camera)
 }

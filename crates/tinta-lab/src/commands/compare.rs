@@ -14,11 +14,11 @@ use std::time::Instant;
 use tinta::cli::batch::JobOptions;
 use tinta::cli::completions::of_table;
 use tinta::cli::inputs::Inputs;
-use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, Selection};
+use tinta::cli::options::{Below, CameraFile, GivenOptions, OfSubject, PresetFile, Selection};
 use tinta::cli::{Command, Verdict, given};
 use tinta::gl::ContextInfo;
 use tinta::pixel::LineTolerance;
-use tinta::preset::{LOOKS, Look, Named};
+use tinta::preset::{LOOKS, Look, StyleOrLook};
 use tinta::record::{CameraRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
 use tinta::request::{Request, Resolved, Session, ignored_remark};
@@ -34,7 +34,7 @@ pub(super) const COMMAND: Command = Command {
         let arguments = Arguments::of_job(job)?;
         Ok(Box::new(move |session| run(&arguments, session).map(|()| Verdict::Good)))
     }),
-    has_in_jobs: |name| Chosen::<OfHow>::has(name) || Chosen::<OfComparison>::has(name),
+    has_in_jobs: |name| GivenOptions::<OfHow>::has(name) || GivenOptions::<OfComparison>::has(name),
     offers: of_table::<CompareSettings>,
     ..Command::new("compare", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.session).map(|()| Verdict::Good)
@@ -53,10 +53,10 @@ pub(super) struct Arguments {
     output: String,
 
     #[command(flatten)]
-    how: Chosen<OfHow>,
+    how: GivenOptions<OfHow>,
 
     #[command(flatten)]
-    options: Chosen<OfComparison>,
+    options: GivenOptions<OfComparison>,
 
     #[command(flatten)]
     preset: PresetFile,
@@ -71,8 +71,8 @@ impl Arguments {
         Ok(Self {
             models: job.models.clone(),
             output: job.output.clone(),
-            how: Chosen::of_options(&job.options),
-            options: Chosen::of_options(&job.options),
+            how: GivenOptions::of_options(&job.options),
+            options: GivenOptions::of_options(&job.options),
             preset: job.preset(),
             camera: job.camera(),
         })
@@ -82,8 +82,8 @@ impl Arguments {
 /// How two styles are compared.
 #[derive(Debug, Clone)]
 pub(super) struct CompareSettings {
-    left: Named,
-    right: Named,
+    left: StyleOrLook,
+    right: StyleOrLook,
     tolerance: LineTolerance,
     frames: u32,
     json: bool,
@@ -91,7 +91,7 @@ pub(super) struct CompareSettings {
 
 impl Default for CompareSettings {
     fn default() -> Self {
-        let [left, right] = [StyleName::ThreePass, StyleName::Inking].map(Named::Style);
+        let [left, right] = [StyleName::ThreePass, StyleName::Inking].map(StyleOrLook::Style);
         Self { left, right, tolerance: LineTolerance::default(), frames: 11, json: false }
     }
 }
@@ -104,10 +104,10 @@ fn list() -> String {
 
 /// The request that draws a side in the view of another one. A look has its view and size, which the other side then has, too; a
 /// style also its colours.
-fn request_of(side: Named, beside: &Request, of: impl Fn(Option<Look>) -> Result<Request>) -> Result<Request> {
+fn request_of(side: StyleOrLook, beside: &Request, of: impl Fn(Option<Look>) -> Result<Request>) -> Result<Request> {
     let mut own = match side {
-        Named::Look(look) => of(Some(look))?,
-        Named::Style(style) => {
+        StyleOrLook::Look(look) => of(Some(look))?,
+        StyleOrLook::Style(style) => {
             let mut own = of(None)?.in_style(style)?;
             (own.scene, own.read) = (beside.scene.clone(), beside.read.clone());
             own
@@ -149,14 +149,14 @@ impl Selection for OfComparison {
 fn style(
     name: &'static str,
     help: &'static str,
-    field: fn(&mut CompareSettings) -> &mut Named,
+    field: fn(&mut CompareSettings) -> &mut StyleOrLook,
 ) -> Setting<CompareSettings> {
     let get = move |how: &CompareSettings| field(&mut how.clone()).name().to_owned();
     let set = move |how: &mut CompareSettings, text: &str| {
         *field(how) = text.parse()?;
         Ok(())
     };
-    Setting::of(name, "STYLE|LOOK", Kind::Choice(Named::names()), help, get, set).common()
+    Setting::of(name, "STYLE|LOOK", Kind::Choice(StyleOrLook::names()), help, get, set).common()
 }
 
 fn settings() -> Vec<Setting<CompareSettings>> {
@@ -233,7 +233,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
         let names = named(&request, [(left, how.left), ("right", how.right)])?;
         let look = [how.left, how.right]
             .into_iter()
-            .find_map(|side| if let Named::Look(look) = side { Some(look) } else { None });
+            .find_map(|side| if let StyleOrLook::Look(look) = side { Some(look) } else { None });
         let beside = if look.is_some() { of(look)? } else { request.clone() };
         let sides = [request_of(how.left, &beside, of)?, request_of(how.right, &beside, of)?];
         compare(arguments, (&how, names), sides, &files, session)
@@ -301,18 +301,18 @@ fn how_compared(arguments: &Arguments, request: &Request) -> Result<(CompareSett
     // A preset's style is the one on the left.
     let is_of_preset = request.options.contains_key("style") && !arguments.how.options.contains_key("left");
     if is_of_preset {
-        how.left = Named::Style(request.style.style_name());
+        how.left = StyleOrLook::Style(request.style.style_name());
     }
     Ok((how, if is_of_preset { "style" } else { "left" }))
 }
 
 /// The names of two styles with lines, each with the option that chose it.
-fn named(request: &Request, chosen: [(&str, Named); 2]) -> Result<[&'static str; 2]> {
+fn named(request: &Request, chosen: [(&str, StyleOrLook); 2]) -> Result<[&'static str; 2]> {
     if request.options.contains_key("no-borders") {
         return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
     }
     for (option, side) in chosen {
-        if matches!(side, Named::Style(style) if !style.has_lines()) {
+        if matches!(side, StyleOrLook::Style(style) if !style.has_lines()) {
             let problem = format!("this style has no lines to compare; choose one of {}", list());
             return Err(Error::value(option, side.name(), problem));
         }

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 /// A command as a document has it.
-struct Named {
+struct DocumentCommand {
     document: PathBuf,
     /// 1-based.
     line: usize,
@@ -30,7 +30,7 @@ fn documents() -> Vec<PathBuf> {
 }
 
 /// All commands of a document that begin with this program's name, or reach it through cargo.
-fn commands(document: &Path) -> Vec<Named> {
+fn commands(document: &Path) -> Vec<DocumentCommand> {
     let text = std::fs::read_to_string(document).unwrap();
     let mut all = Vec::new();
     let mut is_fenced = false;
@@ -54,7 +54,7 @@ fn commands(document: &Path) -> Vec<Named> {
                     .then(|| command.to_owned())
             });
             if let Some(text) = own {
-                all.push(Named { document: document.to_owned(), line: number + 1, text, in_block });
+                all.push(DocumentCommand { document: document.to_owned(), line: number + 1, text, in_block });
             }
         };
         if is_fenced || line.starts_with("    ") {

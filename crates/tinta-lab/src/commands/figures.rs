@@ -1,6 +1,6 @@
 //! `tinta figures`: the three texts' figures as our pictures and plots, and their numbers measured here, on a page.
 
-use crate::figures::page::{FigureRecord, PictureRecord, Shown, page, png_source, svg_source};
+use crate::figures::page::{FigureRecord, PageContent, PictureRecord, page, png_source, svg_source};
 use crate::figures::plot::{PLOT_SIZE, plot, title};
 use crate::figures::{
     Artist, Content, Drawing, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, Turn, figures, measure, only,
@@ -150,7 +150,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     }
     drop(progress);
     let gl = renderer.context();
-    let shown = Shown { figures: &records, numbers: numbers.as_ref() };
+    let shown = PageContent { figures: &records, numbers: numbers.as_ref() };
     page_target.write(&page(shown, &gl.renderer, arguments.size))?;
     record_target.write(&arguments.json(&records, numbers.as_ref(), gl)?)?;
     for record in &records {

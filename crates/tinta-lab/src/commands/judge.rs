@@ -9,7 +9,7 @@ use std::sync::Arc;
 use tinta::cli::camera_file;
 use tinta::cli::inputs::Inputs;
 use tinta::cli::models::load_meshes;
-use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
+use tinta::cli::options::{Below, CameraFile, GivenOptions, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given};
 use tinta::glam::DVec2;
 use tinta::pixel::LineTolerance;
@@ -76,13 +76,13 @@ pub(super) struct Arguments {
     json: bool,
 
     #[command(flatten)]
-    crease: Chosen<OfReference>,
+    crease: GivenOptions<OfReference>,
 
     #[command(flatten)]
     camera: CameraFile,
 
     #[command(flatten)]
-    subject: Chosen<OfSubject>,
+    subject: GivenOptions<OfSubject>,
 }
 
 /// The settings of the exact lines, as in `tinta measure`.

@@ -20,7 +20,7 @@ use std::time::Duration;
 use tinta::cli::batch::JobOptions;
 use tinta::cli::completions::of_table;
 use tinta::cli::inputs::Inputs;
-use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, refuse_of_other_commands};
+use tinta::cli::options::{Below, CameraFile, GivenOptions, OfSubject, PresetFile, refuse_of_other_commands};
 use tinta::cli::progress::{Steps, TimedProgress};
 use tinta::cli::{Command, Verdict, given};
 use tinta::preset::Preset;
@@ -36,7 +36,7 @@ pub(super) const COMMAND: Command = Command {
         let (arguments, words) = (Arguments::of_job(job)?, job.command.clone());
         Ok(Box::new(move |session| run(&arguments, &words, session).map(|()| Verdict::Good)))
     }),
-    has_in_jobs: |name| name == "merge" || Chosen::<OfHow>::has(name) || Chosen::<OfSubject>::has(name),
+    has_in_jobs: |name| name == "merge" || GivenOptions::<OfHow>::has(name) || GivenOptions::<OfSubject>::has(name),
     offers: of_table::<HowMeasured>,
     ..Command::new("measure", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.words, call.session).map(|()| Verdict::Good)
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
     models: Vec<String>,
 
     #[command(flatten)]
-    how: Chosen<OfHow>,
+    how: GivenOptions<OfHow>,
 
     /// Folder for results.jsonl, results.csv, plots and report.html
     #[arg(short, long, value_name = "DIR")]
@@ -68,7 +68,7 @@ pub(super) struct Arguments {
     camera: CameraFile,
 
     #[command(flatten)]
-    subject: Chosen<OfSubject>,
+    subject: GivenOptions<OfSubject>,
 
     /// A job's folder may hold the rows of an earlier try, which it continues or, to merge, replaces.
     #[arg(skip)]
@@ -88,12 +88,12 @@ impl Arguments {
         };
         let arguments = Self {
             models: job.models.clone(),
-            how: Chosen::of_options(&job.options),
+            how: GivenOptions::of_options(&job.options),
             output: job.output.clone().into(),
             merge,
             preset: job.preset(),
             camera: job.camera(),
-            subject: Chosen::of_options(&job.options),
+            subject: GivenOptions::of_options(&job.options),
             is_job: true,
         };
         let is_named = |name: &str| job.options.contains_key(name);
@@ -152,7 +152,7 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
 
 /// A preset's layer for the model and the camera, and its style, which is measured with the others.
 fn of_preset_file(preset: &Preset) -> Result<(OptionLayer, Option<MeasuredStyle>)> {
-    let is_of_subject = Chosen::<OfSubject>::has;
+    let is_of_subject = GivenOptions::<OfSubject>::has;
     let is_of_style = |name: &str| name == "style" || Style::table().has(name);
     refuse_of_other_commands(preset, "measure", |name| is_of_subject(name) || is_of_both(name) || is_of_style(name))?;
     let of_style = preset.clone().of(|name| !is_of_subject(name) && !is_of_both(name));
@@ -165,7 +165,7 @@ fn of_preset_file(preset: &Preset) -> Result<(OptionLayer, Option<MeasuredStyle>
 
 /// Whether an option is of a drawing and of measuring.
 fn is_of_both(name: &str) -> bool {
-    Chosen::<OfHow>::has(name) && Request::table().has(name)
+    GivenOptions::<OfHow>::has(name) && Request::table().has(name)
 }
 
 fn measured(

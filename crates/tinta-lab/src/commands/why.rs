@@ -7,7 +7,7 @@ use serde_json::json;
 use std::path::Path;
 use tinta::cli::inputs::Inputs;
 use tinta::cli::models::load_meshes;
-use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
+use tinta::cli::options::{Below, CameraFile, GivenOptions, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given, print, print_json, say};
 use tinta::glam::DVec2;
 use tinta::lines::{Progress, Why};
@@ -57,7 +57,7 @@ pub(super) struct Arguments {
     camera: CameraFile,
 
     #[command(flatten)]
-    drawing: Chosen<OfPicture>,
+    drawing: GivenOptions<OfPicture>,
 }
 
 /// What is drawn in which style, from where, and how large.

@@ -65,7 +65,7 @@ impl FigureRecord {
 
 /// The drawings and measurements.
 #[derive(Debug, Clone, Copy)]
-pub struct Shown<'a> {
+pub struct PageContent<'a> {
     /// The figures.
     pub figures: &'a [FigureRecord],
     /// Section 5's numbers, if they were measured.
@@ -73,15 +73,15 @@ pub struct Shown<'a> {
 }
 
 /// The page.
-pub fn page(shown: Shown<'_>, gl: &str, size: Size) -> String {
+pub fn page(shown: PageContent<'_>, gl: &str, size: Size) -> String {
     let mut out = String::new();
     // Writing to a String cannot fail.
     let _ = write(&mut out, shown, gl, size);
     out
 }
 
-fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::Result {
-    let Shown { figures: records, numbers, .. } = shown;
+fn write(out: &mut String, shown: PageContent<'_>, gl: &str, size: Size) -> std::fmt::Result {
+    let PageContent { figures: records, numbers, .. } = shown;
     let version = env!("CARGO_PKG_VERSION");
     out.push_str(&beginning("Three texts' figures, drawn again", Pictures::Within));
     writeln!(out, "<h1>Three texts' figures, drawn again</h1>")?;
@@ -117,7 +117,7 @@ fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::
     writeln!(out, "</body>\n</html>")
 }
 
-fn section(out: &mut String, record: &FigureRecord, shown: Shown<'_>) -> std::fmt::Result {
+fn section(out: &mut String, record: &FigureRecord, shown: PageContent<'_>) -> std::fmt::Result {
     let has_columns = !record.passes.is_empty() || record.id.ends_with("-numbers");
     let class = if record.pictures.len() > 1 || has_columns { " class=\"wide\"" } else { "" };
     writeln!(out, "<section id=\"{}\"{class}>", record.id)?;
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn names_of_files_and_drivers_cannot_break_the_page() {
-        let nothing = Shown { figures: &[], numbers: None };
+        let nothing = PageContent { figures: &[], numbers: None };
         let page = page(nothing, "<script>", Size { width: 4, height: 3 });
         assert!(page.contains("&lt;script&gt;") && !page.contains("<script"));
     }

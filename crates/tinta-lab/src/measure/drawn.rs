@@ -2,7 +2,7 @@
 
 use super::ink::Ink;
 use super::reference::{Reference, Sample, distance, fine_tree, samples_of, total};
-use super::{FrameTimes, LineError, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
+use super::{FrameTimes, LineError, MeasureSettings, Measurement, Row, RunTime, Subject, error_picture};
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::error::Result;
 use tinta::lines::{DrawingSettings, LineSettings, Raster, VisibleLines, raster};
@@ -27,7 +27,7 @@ pub fn measure_lines(
     options: String,
     frames: usize,
     how: &MeasureSettings,
-) -> Result<Measured> {
+) -> Result<Measurement> {
     let classes = ClassSet::of(&[Class::Silhouette]);
     let settings = LineSettings { classes, silhouette, finds_hidden: false, ..LineSettings::default() };
     let lines = VisibleLines::of(&subject.scene, &settings)?;
@@ -47,7 +47,7 @@ pub fn measure_lines(
         time: RunTime::new([subject.load_ms, subject.edges_ms, 0.0], times, Vec::new()),
         ..subject.row(how)
     };
-    Ok(Measured { row, drawing, error_picture: Some(error_picture) })
+    Ok(Measurement { row, drawing, error_picture: Some(error_picture) })
 }
 
 /// The error of lines: as for ink, with every point of a line equally dark.

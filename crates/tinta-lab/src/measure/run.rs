@@ -49,7 +49,7 @@ pub struct Subject {
 
 /// A measured setting.
 #[derive(Debug)]
-pub struct Measured {
+pub struct Measurement {
     /// The numbers.
     pub row: Row,
     /// The style's drawing.
@@ -158,7 +158,7 @@ impl Subject {
 struct Contestant {
     plan: Plan,
     frames: FrameTimes,
-    measured: Measured,
+    measured: Measurement,
 }
 
 /// The step that [`measure`] has just finished.
@@ -182,7 +182,7 @@ pub fn measure(
     settings: &[MeasuredStyle],
     how: &MeasureSettings,
     mut step: impl FnMut(MeasureStep),
-) -> Result<(Vec<Measured>, Vec<String>)> {
+) -> Result<(Vec<Measurement>, Vec<String>)> {
     let (mut contestants, mut left_out) = (Vec::new(), Vec::new());
     for setting in settings {
         match contestant(renderer, subject, setting, how) {
@@ -271,7 +271,7 @@ fn contestant(
         ..subject.row(how)
     };
     let error_picture = ink.map(|ink| error_picture(&ink, &subject.reference, tolerance_px));
-    Ok(Contestant { plan, frames: FrameTimes::default(), measured: Measured { row, drawing, error_picture } })
+    Ok(Contestant { plan, frames: FrameTimes::default(), measured: Measurement { row, drawing, error_picture } })
 }
 
 /// The picture of a style that its shading alone makes.

@@ -68,7 +68,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
     let subtitle_lines = wrapped(subtitle, layout.text, layout.room());
     let top = MARGIN + layout.title * 1.4 + line_height * (subtitle_lines.len() as f64 + 1.5);
     let inner = Rectangle { left: layout.left, top, right: layout.width - MARGIN, bottom: top + layout.height };
-    let marked = Marked::of(points, &inner);
+    let marked = PlotMarks::of(points, &inner);
     let labels = labels(&marked, &inner, &layout, shape);
 
     let legend = legend(points, &layout);
@@ -98,7 +98,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
 }
 
 /// The marks of a plot and the lines between them, in pixels.
-struct Marked<'a> {
+struct PlotMarks<'a> {
     points: &'a [Point],
     scale: Scale,
     axes: Axes,
@@ -109,7 +109,7 @@ struct Marked<'a> {
     steps: Vec<Vec<(f64, f64)>>,
 }
 
-impl<'a> Marked<'a> {
+impl<'a> PlotMarks<'a> {
     fn of(points: &'a [Point], inner: &Rectangle) -> Self {
         let scale = Scale::of(points);
         let axes = scale.axes(inner);
@@ -209,7 +209,7 @@ struct Label {
 }
 
 impl Label {
-    fn draw(&self, canvas: &SvgCanvas<'_>, marked: &Marked<'_>, layout: &Layout) -> Result<()> {
+    fn draw(&self, canvas: &SvgCanvas<'_>, marked: &PlotMarks<'_>, layout: &Layout) -> Result<()> {
         let middle = marked.middles[self.index];
         let near = self.place.nearest(middle);
         if (near.0 - middle.0).hypot(near.1 - middle.1) > marks::RADIUS + 6.0 {
@@ -221,8 +221,8 @@ impl Label {
     }
 }
 
-fn labels(marked: &Marked<'_>, inner: &Rectangle, layout: &Layout, shape: Shape) -> Vec<Label> {
-    let Marked { points, front, middles, steps, .. } = marked;
+fn labels(marked: &PlotMarks<'_>, inner: &Rectangle, layout: &Layout, shape: Shape) -> Vec<Label> {
+    let PlotMarks { points, front, middles, steps, .. } = marked;
     let lines: Vec<Rectangle> = steps
         .iter()
         .flat_map(|steps| steps.windows(2))

@@ -12,7 +12,7 @@ use tinta::scene::Scene;
 const EDGE_ON: f64 = 1e-7;
 
 /// Triangles none of which hides part of another one that faces the eye.
-pub(super) struct Unhidden {
+pub(super) struct UnhiddenTriangles {
     /// Corners in world space, file units.
     pub points: Vec<DVec3>,
     /// The triangles, by their corners' numbers.
@@ -29,7 +29,7 @@ struct Face {
     is_seen: bool,
 }
 
-impl Unhidden {
+impl UnhiddenTriangles {
     /// The number of seen lines of each class, their length and the triangles' area, pixels; `None` if part of them is outside the
     /// picture, or a triangle edge-on.
     pub(super) fn figures(mut self, scene: &Scene) -> Option<Figures> {

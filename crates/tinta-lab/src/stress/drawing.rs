@@ -4,7 +4,7 @@ use super::cases::{Drawing, Study, side_px};
 use super::figures::{
     ANSWERS, Exact, Figures, covered_px, darkness, differing_px, doubled_pairs, non_finite, popped, shades_popped,
 };
-use super::jitter::{Flips, Popped, flips, jittered};
+use super::jitter::{Flips, PoppedShares, flips, jittered};
 use super::outcome::Outcome;
 use super::variants::Variant;
 use crate::compare::InkMask;
@@ -17,7 +17,7 @@ use tinta::error::{Error, Result};
 use tinta::lines::Progress;
 use tinta::mesh::LoadOptions;
 use tinta::picture::Picture;
-use tinta::plan::prune::{Pruned, prune};
+use tinta::plan::prune::{PrunedPlan, prune};
 use tinta::preset::LOOKS;
 use tinta::renderer::Renderer;
 use tinta::request::{OptionLayer, Request, empty_remark};
@@ -51,7 +51,7 @@ pub(super) struct Subject {
 }
 
 /// A picture of one style by one backend, and its results.
-type Drawn = (Picture, Figures);
+type Trial = (Picture, Figures);
 
 impl Subject {
     /// Builds the scene for a backend's largest picture, and studies it.
@@ -126,7 +126,7 @@ impl Subject {
     }
 
     /// Draws it in a style; `is_first` for the backend that also measures the effect of a jitter or a turn.
-    pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
+    pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Trial> {
         let style = &variant.style;
         let plan = style.plan(&self.scene, Show::Final)?;
         let pruning = renderer.pruning();
@@ -146,11 +146,11 @@ impl Subject {
     }
 
     /// Draws the default look, as `tinta render` does: its lines must be the exact ones.
-    fn draw_look(&self, drawing: &Drawing, folder: &Path, renderer: &mut Renderer, is_first: bool) -> Result<Drawn> {
+    fn draw_look(&self, drawing: &Drawing, folder: &Path, renderer: &mut Renderer, is_first: bool) -> Result<Trial> {
         let (request, _) = Request::from_layers(&[OptionLayer::Look(LOOKS[0])])?;
         let scene = scene(drawing, renderer.context().largest_picture, folder, &request.read)?;
         let look = request.still(scene, false)?;
-        let (published, Pruned { plan, .. }) = look.plans(renderer)?;
+        let (published, PrunedPlan { plan, .. }) = look.plans(renderer)?;
         let around = look.around(&Progress::default())?;
         let picture = around.drawn(&look, &plan, renderer)?;
         let full = around.drawn(&look, &published, renderer)?;
@@ -171,7 +171,7 @@ impl Subject {
             figures.insert("edges_flipped", flips.exact as f64);
             figures.insert("edges_flipped_paper", flips.published as f64);
             figures.insert("edges_flipped_unexplained", flips.unexplained as f64);
-            let before = Shown::of(renderer, &exact.scene, variant)?;
+            let before = InkAndShading::of(renderer, &exact.scene, variant)?;
             if let Some(ink) = before.ink.as_ref().filter(|_| variant.style.has_lines()) {
                 figures.insert("ink_px", ink.mask().count() as f64);
                 figures.extend(found(&ink.error(&exact.reference, TOLERANCE_PX)));
@@ -181,15 +181,15 @@ impl Subject {
             if let Some(by_rays) = exact.shading(&variant.style)?.filter(|_| is_known) {
                 figures.insert("shades_differing", shades_popped(&before.shading, &by_rays));
             }
-            let after = Shown::of(renderer, &moved.scene, variant)?;
-            note(OF_JITTER, &Popped::of([exact, moved], variant, [&before, &after])?, figures);
+            let after = InkAndShading::of(renderer, &moved.scene, variant)?;
+            note(OF_JITTER, &PoppedShares::of([exact, moved], variant, [&before, &after])?, figures);
         }
         if let Some((first, others)) = self.turn.split_first() {
             let mut steps = Vec::new();
-            let (mut exact, mut shown) = (first, Shown::of(renderer, &first.scene, variant)?);
+            let (mut exact, mut shown) = (first, InkAndShading::of(renderer, &first.scene, variant)?);
             for next in others {
-                let after = Shown::of(renderer, &next.scene, variant)?;
-                steps.push(Popped::of([exact, next], variant, [&shown, &after])?);
+                let after = InkAndShading::of(renderer, &next.scene, variant)?;
+                steps.push(PoppedShares::of([exact, next], variant, [&shown, &after])?);
                 (exact, shown) = (next, after);
             }
             note(OF_TURN, &mean(&steps), figures);
@@ -204,12 +204,12 @@ fn found(error: &LineError) -> [(&'static str, f64); 3] {
 }
 
 /// A style's lines and its shading, separately.
-struct Shown {
+struct InkAndShading {
     ink: Option<Ink>,
     shading: Picture,
 }
 
-impl Shown {
+impl InkAndShading {
     fn of(renderer: &mut Renderer, scene: &Scene, variant: &Variant) -> Result<Self> {
         let style = &variant.style;
         let shading = renderer.draw(scene, &style.plan(scene, shading_of(style))?)?;
@@ -221,9 +221,9 @@ impl Shown {
     }
 }
 
-impl Popped {
+impl PoppedShares {
     /// Compares a style's ink and shading before and after.
-    fn of([before, after]: [&Exact; 2], variant: &Variant, [was, is]: [&Shown; 2]) -> Result<Self> {
+    fn of([before, after]: [&Exact; 2], variant: &Variant, [was, is]: [&InkAndShading; 2]) -> Result<Self> {
         let ink = was.mask().zip(is.mask());
         let ink = ink.map(|(was, is)| [popped(&was, &is), popped(&before.lines(), &after.lines())]);
         let exact = before.shading(&variant.style)?.zip(after.shading(&variant.style)?);
@@ -233,17 +233,17 @@ impl Popped {
 }
 
 /// The means over the steps of a turn.
-fn mean(steps: &[Popped]) -> Popped {
-    let mean = |of: fn(&Popped) -> Option<[f64; 2]>| {
+fn mean(steps: &[PoppedShares]) -> PoppedShares {
+    let mean = |of: fn(&PoppedShares) -> Option<[f64; 2]>| {
         let all: Vec<[f64; 2]> = steps.iter().filter_map(of).collect();
         let share = |which: usize| all.iter().map(|both| both[which]).sum::<f64>() / steps.len() as f64;
         (!all.is_empty()).then(|| [0, 1].map(share))
     };
-    Popped { ink: mean(|step| step.ink), shades: mean(|step| step.shades) }
+    PoppedShares { ink: mean(|step| step.ink), shades: mean(|step| step.shades) }
 }
 
 /// Writes the popped ink into the figures: of the drawing, and of the exact scene.
-fn note(names: [&'static str; 4], popped: &Popped, figures: &mut Figures) {
+fn note(names: [&'static str; 4], popped: &PoppedShares, figures: &mut Figures) {
     figures.extend(names[..2].iter().copied().zip(popped.ink.into_iter().flatten()));
     figures.extend(names[2..].iter().copied().zip(popped.shades.into_iter().flatten()));
 }
@@ -286,8 +286,8 @@ pub(super) fn outcomes(
             subjects.push((largest, Subject::new(drawing, largest, folder)));
         }
     }
-    let mut draw_by_all = |name: &str, draw: &dyn Fn(&Subject, &mut Renderer, bool) -> Result<Drawn>| {
-        let mut first: Option<Drawn> = None;
+    let mut draw_by_all = |name: &str, draw: &dyn Fn(&Subject, &mut Renderer, bool) -> Result<Trial>| {
+        let mut first: Option<Trial> = None;
         for (index, (backend, renderer)) in renderers.iter_mut().enumerate() {
             let largest = renderer.context().largest_picture;
             let subject = subjects.iter().find(|(known, _)| *known == largest).or(subjects.first());

@@ -29,7 +29,7 @@ pub struct Flips {
 
 /// How much came and went, in a picture and by the exact scene, as shares.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Popped {
+pub struct PoppedShares {
     /// The popped share of a style's ink, and of the exact lines.
     pub ink: Option<[f64; 2]>,
     /// The popped share of a style's shading, and of the same formula in f64, if computed.
@@ -79,10 +79,10 @@ pub(super) fn flips(before: &Scene, after: &Scene) -> Flips {
 }
 
 /// A number and how far it may be off.
-type Bounded = (f64, f64);
+type BoundedNumber = (f64, f64);
 
 /// Whether a predicate's value has another sign, or may have for all that is known.
-fn may_have_changed(was: Bounded, is: Bounded) -> bool {
+fn may_have_changed(was: BoundedNumber, is: BoundedNumber) -> bool {
     (was.0 > 0.0) != (is.0 > 0.0) || was.0.abs() <= was.1 || is.0.abs() <= is.1
 }
 
@@ -118,7 +118,7 @@ impl<'a> View<'a> {
     }
 
     /// Volume between the eye and a face: the sum of three products of three.
-    fn side(&self, face: u32) -> Bounded {
+    fn side(&self, face: u32) -> BoundedNumber {
         let corners = self.corners(face);
         let [a, b, c, direction] = match self.eye {
             Eye::Point(eye) => {
@@ -137,7 +137,7 @@ impl<'a> View<'a> {
     }
 
     /// How much the cosine between an edge's two faces is above that of the crease angle.
-    fn angle(&self, edge: u32) -> Bounded {
+    fn angle(&self, edge: u32) -> BoundedNumber {
         let &[first, second] = self.list.faces(edge) else { return (1.0, 0.0) };
         let normal = |face: u32| {
             let [a, b, c] = self.corners(face);

@@ -1,6 +1,6 @@
 //! Runs cases, several at once, and judges them.
 
-use super::cases::{Case, Expected, Group, Work, cases};
+use super::cases::{Case, Demand, Group, Work, cases};
 use super::figures::{ANSWERS, Figures};
 use super::outcome::Outcome;
 use super::{drawing, failing, reading};
@@ -128,7 +128,7 @@ impl Summary {
 const ALWAYS_NONE: [&str; 5] =
     ["non_finite", "pruned_differing_px", "backends_differing_px", "edges_flipped_unexplained", "silently_empty"];
 
-impl Expected {
+impl Demand {
     fn text(&self) -> String {
         match self {
             Self::Rendered => "rendered".to_owned(),
@@ -245,10 +245,10 @@ pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) ->
 }
 
 /// A backend and its renderer's name.
-type Named = (Backend, String);
+type NamedBackend = (Backend, String);
 
 /// The available ones of the requested backends with their renderers' names, and the missing ones; an error if none opens.
-fn find(asked: &[Backend]) -> Result<(Vec<Named>, Vec<MissingBackend>)> {
+fn find(asked: &[Backend]) -> Result<(Vec<NamedBackend>, Vec<MissingBackend>)> {
     let (mut found, mut missing, mut all_attempts) = (Vec::new(), Vec::new(), Vec::new());
     for backend in asked {
         match Renderer::new(*backend) {
@@ -312,7 +312,7 @@ impl Worker<'_> {
 mod tests {
     use super::*;
 
-    fn judged(expected: Expected, outcome: Outcome) -> Row {
+    fn judged(expected: Demand, outcome: Outcome) -> Row {
         let case = cases(0, 0).swap_remove(0);
         row(&Case { expected, checks: Vec::new(), ..case }, "style", "egl", outcome)
     }
@@ -320,21 +320,21 @@ mod tests {
     #[test]
     fn an_outcome_that_is_not_the_expected_one_fails() {
         let refused = || Outcome::Refused { kind: "setting", sentence: "--fov 0: too small".to_owned() };
-        let naming = |words| Expected::Refused { kind: "setting", words };
+        let naming = |words| Demand::Refused { kind: "setting", words };
         assert!(judged(naming("--fov"), refused()).passed);
         assert!(!judged(naming("--eye"), refused()).passed);
-        assert!(!judged(Expected::Refused { kind: "model", words: "--fov" }, refused()).passed);
-        assert!(!judged(Expected::Rendered, refused()).passed);
-        assert!(judged(Expected::Either(&["setting"]), refused()).passed);
-        assert!(!judged(Expected::Either(&["gl"]), refused()).passed);
+        assert!(!judged(Demand::Refused { kind: "model", words: "--fov" }, refused()).passed);
+        assert!(!judged(Demand::Rendered, refused()).passed);
+        assert!(judged(Demand::Either(&["setting"]), refused()).passed);
+        assert!(!judged(Demand::Either(&["gl"]), refused()).passed);
         assert!(!judged(naming("--fov"), Outcome::Rendered(Figures::new())).passed);
-        assert!(!judged(Expected::Either(&["setting"]), Outcome::Panicked).passed);
+        assert!(!judged(Demand::Either(&["setting"]), Outcome::Panicked).passed);
     }
 
     #[test]
     fn figures_that_are_not_as_they_must_be_fail() {
         let drawn = |name: &'static str, value: f64| {
-            judged(Expected::Rendered, Outcome::Rendered(Figures::from([(name, value)])))
+            judged(Demand::Rendered, Outcome::Rendered(Figures::from([(name, value)])))
         };
         assert!(drawn("covered_px", 7.0).passed);
         assert!(!drawn("covered_px", f64::NAN).passed);

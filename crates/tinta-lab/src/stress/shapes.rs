@@ -1,7 +1,7 @@
 //! The shapes that stiff cases are made of: small, each with one thing wrong or extreme, in units of about 1.
 
-use super::Written;
-use super::closed_form::Unhidden;
+use super::WrittenShape;
+use super::closed_form::UnhiddenTriangles;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -78,7 +78,7 @@ pub enum Shape {
     /// A fence of this many closed bars, with gaps of a bar's width.
     Fence(u32),
     /// A shape that a file brings.
-    Written(Written),
+    Written(WrittenShape),
     /// A long strip from in front of the eye of these cases to far behind it, through the point (1, 1, 1) of eye space, the place
     /// of the articles' light.
     ThroughTheLight,
@@ -111,7 +111,7 @@ impl Shape {
     }
 
     /// Its faces, if none of them hides part of another one that faces the eye.
-    pub(super) fn unhidden(self) -> Option<Unhidden> {
+    pub(super) fn unhidden(self) -> Option<UnhiddenTriangles> {
         let is_closed = match self {
             Self::Cube | Self::Solid(..) | Self::CubeBesideSmaller(_) | Self::Specks(_) | Self::Touching => true,
             Self::Ball(_) => true,
@@ -119,7 +119,7 @@ impl Shape {
             _ => return None,
         };
         let (points, faces) = self.triangles();
-        Some(Unhidden { points, faces, is_closed })
+        Some(UnhiddenTriangles { points, faces, is_closed })
     }
 
     fn triangles(self) -> Triangles {

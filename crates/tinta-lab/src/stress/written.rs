@@ -8,7 +8,7 @@ use tinta::scene::Size;
 
 /// A shape that is written into a file and read again.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Written {
+pub enum WrittenShape {
     /// A cube whose normals all point along (1, 2, 2), with this length; `None` writes no normals.
     Normals(Option<f64>),
     /// A square with a picture of 16 x 16 texels, whose texture coordinates are this much larger; `None` writes none.
@@ -20,7 +20,7 @@ pub enum Written {
 const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
 const CUBE_FACES: [[u32; 4]; 6] = [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]];
 
-impl Written {
+impl WrittenShape {
     /// Writes the shape into a folder of its own below this one, which stays because pictures are read when they are drawn.
     pub(super) fn mesh(self, folder: &Path, options: &LoadOptions) -> Result<Mesh> {
         let own = tempfile::tempdir_in(folder)

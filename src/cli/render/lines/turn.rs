@@ -12,7 +12,7 @@ use tinta::animation::NumberedName;
 use tinta::lines::DrawingFormat;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{ReadModels, Request, Session, Wanted};
+use tinta::request::{ReadModels, Request, Session, WantedLines};
 use tinta::{Error, Result};
 
 /// The names of the drawings.
@@ -45,7 +45,7 @@ pub(super) fn run(
         let frame = Instant::now();
         let name = names.with(number);
         let progress = progress(rendering);
-        let drawn = watched(&progress, stop, || view.drawn_lines(Wanted::of(format, false), &progress));
+        let drawn = watched(&progress, stop, || view.drawn_lines(WantedLines::of(format, false), &progress));
         if is_stopped(stop) || matches!(drawn, Err(Error::Cancelled)) {
             return Ok(stopped(stop, number - 1, views));
         }

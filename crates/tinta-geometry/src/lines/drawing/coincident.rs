@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Removes repeated stretches from layers, the lowest first.
 pub(super) fn keep_once<'a>(layers: impl DoubleEndedIterator<Item = &'a mut Vec<LinePath>>) {
-    let mut drawn: HashMap<Line, Covered> = HashMap::new();
+    let mut drawn: HashMap<Line, Stretches> = HashMap::new();
     for paths in layers.rev() {
         *paths = std::mem::take(paths).into_iter().flat_map(|path| what_is_new(path, &mut drawn)).collect();
     }
@@ -47,9 +47,9 @@ fn greatest_common_divisor(a: u64, b: u64) -> u64 {
 
 /// The drawn parts of a line: disjoint stretches, each from its lower end to its higher one.
 #[derive(Default)]
-struct Covered(BTreeMap<i64, i64>);
+struct Stretches(BTreeMap<i64, i64>);
 
-impl Covered {
+impl Stretches {
     /// Adds a stretch; returns the parts of it that are new and longer than a step, ascending.
     fn add(&mut self, whole: [i64; 2]) -> Vec<[i64; 2]> {
         let [mut low, mut high] = whole;
@@ -71,7 +71,7 @@ impl Covered {
 }
 
 /// The parts of a path that are not drawn yet.
-fn what_is_new(path: LinePath, drawn: &mut HashMap<Line, Covered>) -> Vec<LinePath> {
+fn what_is_new(path: LinePath, drawn: &mut HashMap<Line, Stretches>) -> Vec<LinePath> {
     let count = path.points_px.len();
     if path.class == Class::Point || count < 2 {
         return vec![path];

@@ -11,7 +11,7 @@ use crate::lines::drawing::drawn_labels::{DrawnLabel, drawn_labels, height_px};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::Page;
 use crate::lines::drawing::pen::{dashes, in_pen_order};
-use crate::lines::drawing::settings::{DrawingSettings, Hidden};
+use crate::lines::drawing::settings::{DrawingSettings, HiddenLines};
 use crate::lines::drawing::simplify::simplified;
 use crate::lines::drawing::taper::{Lines, taper};
 use crate::lines::parts::style::PartRole;
@@ -187,8 +187,8 @@ impl DrawnLayer {
         let pattern = match layer {
             Layer::Visible(Class::Centre) | Layer::Hidden(Class::Centre) => CHAIN,
             Layer::Visible(Class::Point) | Layer::Hidden(Class::Point) => &[],
-            Layer::Hidden(_) if settings.hidden == Hidden::Dashed && is_on_paper => DASHED_ON_PAPER,
-            Layer::Hidden(_) if settings.hidden == Hidden::Dashed => DASHED,
+            Layer::Hidden(_) if settings.hidden == HiddenLines::Dashed && is_on_paper => DASHED_ON_PAPER,
+            Layer::Hidden(_) if settings.hidden == HiddenLines::Dashed => DASHED,
             Layer::Visible(_) | Layer::Outline if is_of_ghost && is_on_paper => DOUBLE_CHAIN,
             _ => &[],
         };
@@ -207,7 +207,7 @@ impl DrawnLayer {
             color: settings.color(layer),
             width_px,
             dash_px: pattern.iter().filter(|_| !settings.is_for_pen).map(|widths| widths * width_px).collect(),
-            is_ghost: !layer.is_visible() && settings.hidden == Hidden::Ghost && !settings.is_for_pen,
+            is_ghost: !layer.is_visible() && settings.hidden == HiddenLines::Ghost && !settings.is_for_pen,
             paths,
             tips: Vec::new(),
         }

@@ -22,7 +22,7 @@ pub struct DrawingSettings {
     /// The recipe that reproduces it, as JSON, stored in the metadata of an SVG. Default none.
     pub recipe: String,
     /// How hidden lines are drawn. Default: not at all.
-    pub hidden: Hidden,
+    pub hidden: HiddenLines,
     /// Colours of layers. Default black; dashed hidden lines have a colour half-way to the paper's.
     pub class_colors: ClassColors,
     /// Width of the lines. Default 2 pixels, on [`PageSize::Paper`] half a millimetre.
@@ -61,7 +61,7 @@ impl Default for DrawingSettings {
             title: String::new(),
             command: String::new(),
             recipe: String::new(),
-            hidden: Hidden::None,
+            hidden: HiddenLines::None,
             class_colors: ClassColors::default(),
             line_width: None,
             class_widths: ClassWidths::default(),
@@ -230,7 +230,7 @@ impl DrawingSettings {
 crate::choices! {
     /// How hidden lines are drawn.
     #[derive(Default)]
-    pub enum Hidden {
+    pub enum HiddenLines {
         /// Not at all.
         #[default]
         None = "none",
@@ -302,7 +302,7 @@ impl DrawingSettings {
 
     /// Whether visible or hidden lines are drawn.
     pub(in crate::lines) fn draws(&self, is_visible: bool) -> bool {
-        is_visible || self.hidden != Hidden::None
+        is_visible || self.hidden != HiddenLines::None
     }
 
     /// The common line width.
@@ -345,8 +345,10 @@ impl DrawingSettings {
             (Some(color), _) => color,
             (None, Layer::Hidden(class)) => {
                 let color = self.color(Layer::Visible(class));
-                let is_grey =
-                    self.hidden == Hidden::Dashed && class != Class::Centre && !self.is_for_pen && !self.is_on_paper();
+                let is_grey = self.hidden == HiddenLines::Dashed
+                    && class != Class::Centre
+                    && !self.is_for_pen
+                    && !self.is_on_paper();
                 if is_grey { mixed(color, self.paper_color(), HIDDEN_STRENGTH) } else { color }
             }
             (None, _) => Color([0.0; 3]),
@@ -470,7 +472,7 @@ mod tests {
     #[test]
     fn hidden_lines_are_half_as_wide_and_grey_unless_said_otherwise() {
         let hidden = Layer::Hidden(Class::Crease);
-        let dashed = DrawingSettings { hidden: Hidden::Dashed, ..base() };
+        let dashed = DrawingSettings { hidden: HiddenLines::Dashed, ..base() };
         assert_eq!((dashed.width_px(hidden, units(None)), dashed.color(hidden)), (1.0, Color([0.5; 3])));
         let red = Color([1.0, 0.0, 0.0]);
         let mut told = dashed.clone();

@@ -18,18 +18,18 @@ pub(super) struct EdgeClasses {
 /// The classes for one crease angle.
 struct OfAngle {
     angle: CreaseAngle,
-    found: Found,
+    found: AngleClasses,
 }
 
 /// Edges with classes, and which of them are creases.
-enum Found {
+enum AngleClasses {
     /// Every edge alone.
     Each(Arc<Classes>),
     /// Creases only where they last.
     Lasting(Arc<LastingCreases>),
 }
 
-impl Found {
+impl AngleClasses {
     fn classes(&self) -> &Classes {
         match self {
             Self::Each(classes) => classes,
@@ -50,11 +50,11 @@ impl EdgeClasses {
             }
             let found = match *angle == settings.crease_angle {
                 _ if settings.lasting_creases => {
-                    Found::Lasting(edges.lasting(*angle, wanted, settings.creases_by_normals))
+                    AngleClasses::Lasting(edges.lasting(*angle, wanted, settings.creases_by_normals))
                 }
-                true => Found::Each(edges.classes(*angle, wanted)),
+                true => AngleClasses::Each(edges.classes(*angle, wanted)),
                 // The mesh keeps those of one angle.
-                false => Found::Each(Arc::new(Classes::new(edges.mesh(), edges.list(), *angle, wanted))),
+                false => AngleClasses::Each(Arc::new(Classes::new(edges.mesh(), edges.list(), *angle, wanted))),
             };
             all.of_angles.push(OfAngle { angle: *angle, found });
         }
@@ -80,7 +80,7 @@ impl EdgeClasses {
         let OfAngle { found, .. } = &self.of_angles[self.of_looks[look as usize]];
         let of_edge = found.classes().of_edges[edge as usize];
         match found {
-            Found::Lasting(lasting) if !lasting.lasts[edge as usize] => (of_edge.without(&CREASES), false),
+            AngleClasses::Lasting(lasting) if !lasting.lasts[edge as usize] => (of_edge.without(&CREASES), false),
             _ => (of_edge, true),
         }
     }

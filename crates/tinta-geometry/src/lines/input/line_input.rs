@@ -8,7 +8,7 @@ use crate::lines::input::object_edges::{Edges, IsGhost, ObjectEdges, ghost_faces
 use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::settings::{LineSettings, check_on_surface, not_published};
 use crate::lines::sight::Sight;
-use crate::memory::{Asked, LINES};
+use crate::memory::{DrawingWork, LINES};
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::threads::both;
@@ -29,7 +29,7 @@ pub(in crate::lines) struct LineInput<'a> {
     pub scene_parts: SceneParts,
     pub faces: Arc<Faces>,
     /// The lines' purpose.
-    pub asked: Asked,
+    pub asked: DrawingWork,
 }
 
 impl<'a> LineInput<'a> {
@@ -80,7 +80,7 @@ impl<'a> LineInput<'a> {
     /// # Errors
     ///
     /// [`Error::Setting`] for too large a scene.
-    pub(in crate::lines) fn as_given(sight: &'a Sight<'_>, asked: Asked) -> Result<Self> {
+    pub(in crate::lines) fn as_given(sight: &'a Sight<'_>, asked: DrawingWork) -> Result<Self> {
         let scene = sight.scene;
         let classes = ClassSet::of(&[Class::Intersection]);
         let settings = LineSettings { classes, finds_hidden: false, ..LineSettings::default() };

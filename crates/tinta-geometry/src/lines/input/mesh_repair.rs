@@ -1,6 +1,6 @@
 //! Repairs a mesh before its lines are found.
 //!
-//! - Of faces that [cover one another](crate::lines::input::repeated_sheets), as in surfaces modelled from both sides, one
+//! - Of faces that [cover one another](crate::lines::input::covered_faces), as in surfaces modelled from both sides, one
 //!   set stays. The others would turn every edge into one with four faces.
 //! - Faces with a corner on the opposite side are removed if they touch others: they are lines.
 //! - Faces are split at [T-junctions](crate::lines::input::split_t_junctions), so no line crosses a surface that
@@ -11,9 +11,9 @@
 use crate::disjoint_sets::DisjointSets;
 use crate::edges::EdgeList;
 use crate::lines::input::coplanar::{Ending, Kinds, Planar, ending_faces};
+use crate::lines::input::covered_faces::covered_faces;
 use crate::lines::input::face_subset::keep_faces;
-use crate::lines::input::repeated_sheets::repeated_sheets;
-use crate::lines::input::split_t_junctions::{Split, chains, split_at_junctions};
+use crate::lines::input::split_t_junctions::{SplitMesh, chains, split_at_junctions};
 use crate::mesh::Mesh;
 use crate::threads::{in_chunks, threads_for};
 use std::borrow::Cow;
@@ -50,7 +50,7 @@ pub(in crate::lines) fn repaired(
     let mut shape = WorkingMesh { mesh: mesh.clone(), edges: Cow::Borrowed(edges) };
     shape.leave_out(&lines);
     let covered = match ghosts {
-        None => repeated_sheets(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges)),
+        None => covered_faces(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges)),
         Some(is_ghost) => [true, false]
             .into_iter()
             .flat_map(|are_ghosts| covered_among(&shape.mesh, |face| is_ghost(&shape.mesh, face) == are_ghosts))
@@ -73,7 +73,7 @@ pub(in crate::lines) fn repaired(
     edges.set_faces(split_mesh, ending.iter().map(|ending| (ending.edge, ending.faces.as_slice())));
     let covered = covered.len();
     Some(match split {
-        Some(Split { mesh, whole_faces, on_edges }) => {
+        Some(SplitMesh { mesh, whole_faces, on_edges }) => {
             RepairedMesh { shape, split: Arc::new(mesh), edges, crossings, whole_faces, on_edges, covered }
         }
         None => {
@@ -96,7 +96,7 @@ fn covered_among(mesh: &Mesh, is_of_them: impl Fn(u32) -> bool) -> Vec<u32> {
     let numbers: Vec<u32> = (0..mesh.triangles.len() as u32).filter(|face| is_of_them(*face)).collect();
     let some = keep_faces(mesh, is_of_them);
     let edges = EdgeList::new(&some);
-    repeated_sheets(&some, &edges, &chains(&some, &edges)).into_iter().map(|face| numbers[face as usize]).collect()
+    covered_faces(&some, &edges, &chains(&some, &edges)).into_iter().map(|face| numbers[face as usize]).collect()
 }
 
 /// A mesh with some of its faces removed, and its edges.

@@ -143,7 +143,7 @@ impl<'a> HalfEdges<'a> {
     }
 }
 
-pub(in crate::lines) struct Split {
+pub(in crate::lines) struct SplitMesh {
     pub mesh: Mesh,
     /// For each face, the original face that contains it.
     pub whole_faces: Vec<u32>,
@@ -152,23 +152,23 @@ pub(in crate::lines) struct Split {
 }
 
 /// The mesh with its faces split at all T-junctions; `None` if it has none.
-pub(in crate::lines) fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Split> {
+pub(in crate::lines) fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<SplitMesh> {
     /// A chain may cover an edge of another chain.
     const MOST_ROUNDS: usize = 8;
-    let mut split: Option<Split> = None;
+    let mut split: Option<SplitMesh> = None;
     let mut edges = Cow::Borrowed(edges);
     for _ in 0..MOST_ROUNDS {
         let current = split.as_ref().map_or(mesh, |split| &split.mesh);
         let chains = chains(current, &edges);
         let Some(next) = split_at(current, on_bundles(current, &edges, &chains)) else { break };
         edges = Cow::Owned(EdgeList::new(&next.mesh));
-        split = Some(Split::after(split, next));
+        split = Some(SplitMesh::after(split, next));
     }
     let current = split.as_ref().map_or(mesh, |split| &split.mesh);
     let is_rim = |edge: &usize| edges.incidence()[*edge] == Incidence::Boundary;
     let rims: Vec<[u32; 2]> = (0..edges.len()).filter(is_rim).map(|edge| edges.positions()[edge]).collect();
     match split_at(current, vertices_on(&Planar::new(current), &rims, &ends_of(&rims))) {
-        Some(next) => Some(Split::after(split, next)),
+        Some(next) => Some(SplitMesh::after(split, next)),
         None => split,
     }
 }
@@ -197,7 +197,7 @@ fn on_bundles(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> BTreeMap<[u32;
     on_edges
 }
 
-impl Split {
+impl SplitMesh {
     /// Combines two successive splits.
     fn after(first: Option<Self>, then: Self) -> Self {
         let Some(first) = first else { return then };
@@ -224,7 +224,7 @@ impl Split {
 }
 
 /// The mesh with its faces split at the vertices on their sides; `None` if no side has any.
-fn split_at(mesh: &Mesh, on_sides: BTreeMap<[u32; 2], Vec<u32>>) -> Option<Split> {
+fn split_at(mesh: &Mesh, on_sides: BTreeMap<[u32; 2], Vec<u32>>) -> Option<SplitMesh> {
     if on_sides.is_empty() {
         return None;
     }
@@ -239,7 +239,7 @@ fn split_at(mesh: &Mesh, on_sides: BTreeMap<[u32; 2], Vec<u32>>) -> Option<Split
     let whole_faces = faces.iter().map(|(face, _)| *face as u32).collect();
     is_split.then(|| {
         let mesh = with_marks_split(with_faces(mesh, faces), &on_sides);
-        Split { mesh, whole_faces, on_edges: on_sides }
+        SplitMesh { mesh, whole_faces, on_edges: on_sides }
     })
 }
 

@@ -3,7 +3,7 @@
 //! In: a scene and rules. Out: the scene, whose meshes have a material more for each colour of a material's faces.
 
 use crate::lines::parts::rules::PartRules;
-use crate::mesh::{Material, Mesh, NONE, Named};
+use crate::mesh::{Material, Mesh, NONE, PatternMatches};
 use crate::scene::{Color, Scene};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ impl Scene {
 fn filled(mesh: &Mesh, PartRules(rules): &PartRules) -> Option<Arc<Mesh>> {
     // Of several rules the last one counts.
     let fills = rules.iter().rev().filter_map(|rule| Some((rule.pattern.named(mesh), rule.style.fill?)));
-    let fills: Vec<(Named, Color)> = fills.collect();
+    let fills: Vec<(PatternMatches, Color)> = fills.collect();
     let mut filled = mesh.clone();
     filled.triangle_materials.resize(mesh.triangles.len(), NONE);
     let mut numbers: HashMap<[u32; 2], Option<u32>> = HashMap::new();

@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::lines::parts::rules::{PartRule, PartRules};
 use crate::lines::parts::style::{PartRole, PartStyle};
 use crate::lines::{LineSegment, LineSettings};
-use crate::mesh::{Mesh, NONE, Named, SECTION};
+use crate::mesh::{Mesh, NONE, PatternMatches, SECTION};
 use crate::scene::Scene;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -73,14 +73,14 @@ impl SceneParts {
     }
 
     fn numbers(&mut self, mesh: &Mesh, PartRules(rules): &PartRules, is_used: &mut [bool]) -> Numbers {
-        let named: Vec<Named> = rules.iter().map(|rule| rule.pattern.named(mesh)).collect();
+        let named: Vec<PatternMatches> = rules.iter().map(|rule| rule.pattern.named(mesh)).collect();
         is_used.iter_mut().zip(&named).for_each(|(is_used, named)| *is_used |= named.is_any());
         let mut add = |key: [u32; 2]| {
             let is_cut = mesh.curves.hatching > 0 && names(mesh, key).name == SECTION;
             let name = if is_cut { SECTION.to_owned() } else { String::new() };
             let mut style = PartStyle { name, is_cut, ..PartStyle::default() };
             let is_fill = |style: &PartStyle| style.role.is_none() && style.is_of_surface();
-            let of_lines = |(rule, named): &(&PartRule, &Named)| named.holds(key) && !is_fill(&rule.style);
+            let of_lines = |(rule, named): &(&PartRule, &PatternMatches)| named.holds(key) && !is_fill(&rule.style);
             for (rule, _) in rules.iter().zip(&named).filter(of_lines) {
                 style = PartStyle { fill: None, ..rule.style.over(&style) };
             }

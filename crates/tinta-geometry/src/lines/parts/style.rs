@@ -3,7 +3,7 @@
 use crate::edges::{Class, ClassSet, CreaseAngle};
 use crate::lines::drawing::layers::{ClassColors, ClassWidths, OfLayers};
 use crate::lines::drawing::length::Length;
-use crate::lines::drawing::settings::{DrawingSettings, Hidden};
+use crate::lines::drawing::settings::{DrawingSettings, HiddenLines};
 use crate::scene::Color;
 use crate::settings::{HasSettings, Kind, Setting, Table};
 use std::borrow::Cow;
@@ -37,7 +37,7 @@ pub struct PartStyle {
     /// The width of its lines, whatever their classes; widths of classes in line widths (`2x`) follow.
     pub line_width: Option<Length>,
     /// How its hidden lines are drawn.
-    pub hidden: Option<Hidden>,
+    pub hidden: Option<HiddenLines>,
     /// Its classes of lines.
     pub classes: Option<ClassSet>,
     /// The smallest angle of its creases.
@@ -153,7 +153,7 @@ impl PartStyle {
 
     /// Whether its hidden lines are drawn.
     pub(super) fn draws_hidden(&self) -> bool {
-        self.hidden.is_some_and(|hidden| hidden != Hidden::None)
+        self.hidden.is_some_and(|hidden| hidden != HiddenLines::None)
     }
 
     /// The settings of a drawing for this part's lines.

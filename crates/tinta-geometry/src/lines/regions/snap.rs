@@ -7,7 +7,7 @@
 use crate::bvh::{Box3, BoxTree, NodeSelection};
 use crate::error::Result;
 use crate::lines::progress::Progress;
-use crate::memory::{Asked, free};
+use crate::memory::{DrawingWork, free};
 use crate::threads::{cores, in_chunks, sort_by, spread_chunks};
 use glam::{DVec2, I64Vec2};
 
@@ -46,7 +46,7 @@ pub(super) fn turn([from, to]: Segment, point: Point) -> i64 {
 /// # Errors
 ///
 /// Those of [`Progress::go_on`], and [`crate::Error::Setting`] if the pieces need more memory than is free.
-pub(super) fn snapped(mut segments: Vec<Segment>, asked: Asked, progress: &Progress) -> Result<Vec<Segment>> {
+pub(super) fn snapped(mut segments: Vec<Segment>, asked: DrawingWork, progress: &Progress) -> Result<Vec<Segment>> {
     segments.retain(|[a, b]| a != b);
     sort(&mut segments);
     let (tree, order) = BoxTree::new(&segments.iter().map(around).collect::<Vec<_>>());
@@ -55,7 +55,7 @@ pub(super) fn snapped(mut segments: Vec<Segment>, asked: Asked, progress: &Progr
     let all = NodeSelection::default();
     let node_pairs = tree.node_pairs(&all);
     let found = spread_chunks(node_pairs.len(), 8, cores(), |range| {
-        let mut found = Found::default();
+        let mut found = SegmentMeetings::default();
         tree.pairs_below(&node_pairs[range], &all, &mut |first, second| {
             found.compare(&segments, first, second);
             found.count.is_multiple_of(1024) && progress.is_over()
@@ -119,7 +119,7 @@ fn around([a, b]: &Segment) -> Box3 {
 
 /// Where segments meet.
 #[derive(Default)]
-struct Found {
+struct SegmentMeetings {
     /// Ends of segments that other segments pass, with the place of the segment that passes.
     cuts: Vec<(u32, Point)>,
     /// The grid points nearest to crossings.
@@ -127,7 +127,7 @@ struct Found {
     count: u32,
 }
 
-impl Found {
+impl SegmentMeetings {
     fn compare(&mut self, segments: &[Segment], first: u32, second: u32) {
         self.count = self.count.wrapping_add(1);
         let [one, other] = [first, second].map(|place| segments[place as usize]);

@@ -23,7 +23,7 @@ pub struct Surface {
 
 crate::choices! {
     /// By what regions are joined.
-    pub enum Joined {
+    pub enum JoinKey {
         /// By face of the file: the triangles of a polygon become one.
         Face = "face",
         /// By object and material.
@@ -35,14 +35,14 @@ crate::choices! {
 
 impl Surface {
     /// What regions joined so show where this face is seen.
-    fn of(scene: &Scene, SeenFace { object, face }: SeenFace, joined: Joined) -> Self {
+    fn of(scene: &Scene, SeenFace { object, face }: SeenFace, joined: JoinKey) -> Self {
         let mesh = &scene.objects[object as usize].mesh;
         let material = mesh.triangle_materials.get(face as usize).copied().filter(|material| *material != NONE);
         Self {
             object,
-            material: material.filter(|_| joined != Joined::Object),
+            material: material.filter(|_| joined != JoinKey::Object),
             tone: None,
-            face: (joined == Joined::Face).then(|| mesh.file_face(face)),
+            face: (joined == JoinKey::Face).then(|| mesh.file_face(face)),
         }
     }
 }
@@ -59,12 +59,12 @@ impl Regions<Option<Surface>> {
     /// # Errors
     ///
     /// Those of [`Regions::with_progress`].
-    pub fn joined_by(sight: &Sight<'_>, joined: Joined, progress: &Progress) -> Result<Self> {
+    pub fn joined_by(sight: &Sight<'_>, joined: JoinKey, progress: &Progress) -> Result<Self> {
         let of_triangles = Regions::with_progress(sight, progress)?;
         let scene = sight.scene;
         let surface = |seen: Option<SeenFace>| seen.map(|seen| Surface::of(scene, seen, joined));
         let is_cut = scene.objects.iter().any(|object| !object.mesh.file_faces.is_empty());
-        match joined == Joined::Face && !is_cut {
+        match joined == JoinKey::Face && !is_cut {
             true => Ok(of_triangles.labelled(surface)),
             false => Ok(of_triangles.joined(|seen| Some(surface(seen)))),
         }

@@ -4,8 +4,8 @@
 //! lines say which pieces of borders are visible. A piece that ends on another one is drawn a little beyond it, so cells close wherever
 //! rounding moves either; a piece too many does no harm.
 //!
-//! Of faces that touch, the one with the lowest number is seen. So of sheets in one plane a line counts only where no sheet with a lower
-//! number covers it, although it is visible: many sheets have few borders, and one of two that overlap has strokes.
+//! Of faces that touch, the one with the lowest number is seen. So of faces in one plane a line counts only where no face with a lower
+//! number covers it, although it is visible: many have few borders, and one of two that overlap has strokes.
 
 use super::grid::Grid;
 use super::region::SeenFace;
@@ -31,7 +31,7 @@ use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::search::Search;
-use crate::memory::Asked;
+use crate::memory::DrawingWork;
 use crate::ranges::{gaps, united};
 use crate::threads::{cores, in_chunks, spread_chunks};
 use glam::{DVec2, DVec3};
@@ -59,7 +59,7 @@ pub(in crate::lines) struct View<'a> {
 type Line = (Feature, u32);
 
 /// Lines with their images, and the visible pieces: each line's number and a range along it.
-struct Decided {
+struct DecidedLines {
     features: Vec<Feature>,
     images: Vec<Option<Image>>,
     pieces: Vec<(usize, [f64; 2])>,
@@ -71,7 +71,7 @@ impl<'a> View<'a> {
     /// # Errors
     ///
     /// Those of [`LineInput::as_given`] and [`Progress::go_on`].
-    pub(in crate::lines) fn of(sight: &'a Sight<'_>, asked: Asked, progress: &Progress) -> Result<Self> {
+    pub(in crate::lines) fn of(sight: &'a Sight<'_>, asked: DrawingWork, progress: &Progress) -> Result<Self> {
         progress.begin(Phase::Areas, 0);
         let input = LineInput::as_given(sight, asked)?;
         progress.go_on()?;
@@ -129,12 +129,12 @@ impl<'a> View<'a> {
         let mut lines: Vec<Line> = inside.map(|(place, ends)| self.within(place, ends)).collect();
         let rims = self.edges(|_| false).into_iter().map(|(rim, lowest)| (Feature { class: None, ..rim }, lowest));
         lines.extend(rims.chain(self.input.near_plane_features().map(|cut| (cut, 0))));
-        let Decided { images, pieces, .. } = self.decided(lines, &Intersections::default(), progress)?;
+        let DecidedLines { images, pieces, .. } = self.decided(lines, &Intersections::default(), progress)?;
         Ok(pieces.into_iter().filter_map(|(line, range)| Some((line, range, images[line]?))).collect())
     }
 
     /// Decides which pieces of lines are visible.
-    fn decided(&self, lines: Vec<Line>, found: &Intersections, progress: &Progress) -> Result<Decided> {
+    fn decided(&self, lines: Vec<Line>, found: &Intersections, progress: &Progress) -> Result<DecidedLines> {
         let (features, lowest): (Vec<Feature>, Vec<u32>) = lines.into_iter().unzip();
         let candidates = Candidates::without_contours(features, found);
         let index = LineIndex::new(&self.input, &candidates, &self.search, progress)?;
@@ -152,7 +152,7 @@ impl<'a> View<'a> {
         });
         progress.go_on()?;
         let LineIndex { images, .. } = index;
-        Ok(Decided { features: candidates.features, images, pieces: pieces.concat() })
+        Ok(DecidedLines { features: candidates.features, images, pieces: pieces.concat() })
     }
 
     /// The edges of all objects that may be borders or hide others.
@@ -253,7 +253,7 @@ impl<'a> View<'a> {
     }
 
     /// The segments of visible pieces of lines, and the picture's frame. Where all borders at a vertex begin, nothing goes beyond it.
-    fn drawn(&self, Decided { features, images, pieces }: &Decided) -> Vec<Segment> {
+    fn drawn(&self, DecidedLines { features, images, pieces }: &DecidedLines) -> Vec<Segment> {
         let LineInput { space, faces, .. } = &self.input;
         let mut missing = vec![0i32; faces.positions.len()];
         let vertices = features.iter().filter(|feature| feature.class.is_some());

@@ -111,7 +111,7 @@ fn of_layer(drawn: &DrawnLayer, units: Units) -> Strokes {
 mod tests {
     use super::*;
     use crate::edges::Class;
-    use crate::lines::{Hidden, LineSegment, LineTimes};
+    use crate::lines::{HiddenLines, LineSegment, LineTimes};
     use crate::scene::Size;
 
     /// A visible crease of 90 pixels, and a hidden one below it.
@@ -144,23 +144,23 @@ mod tests {
         }
     }
 
-    fn of(hidden: Hidden) -> Vec<Strokes> {
+    fn of(hidden: HiddenLines) -> Vec<Strokes> {
         strokes(&lines(), &DrawingSettings { hidden, ..DrawingSettings::default() }).unwrap()
     }
 
     #[test]
     fn hidden_lines_are_strokes_only_where_they_are_asked_for_and_lie_below() {
-        let [visible] = &of(Hidden::None)[..] else { panic!("one layer") };
+        let [visible] = &of(HiddenLines::None)[..] else { panic!("one layer") };
         assert_eq!((visible.layer, visible.width_px, visible.opacity), (Layer::Visible(Class::Crease), 2.0, 1.0));
         assert_eq!(visible.polylines[0].points_px, [DVec2::new(5.0, 20.0), DVec2::new(95.0, 20.0)]);
-        let [hidden, above] = &of(Hidden::Ghost)[..] else { panic!("two layers") };
+        let [hidden, above] = &of(HiddenLines::Ghost)[..] else { panic!("two layers") };
         assert_eq!((hidden.layer, hidden.opacity), (Layer::Hidden(Class::Crease), GHOST_OPACITY));
         assert_eq!(above, visible);
     }
 
     #[test]
     fn dashes_are_strokes_of_their_own_as_long_as_the_file_says() {
-        let [hidden, _] = &of(Hidden::Dashed)[..] else { panic!("two layers") };
+        let [hidden, _] = &of(HiddenLines::Dashed)[..] else { panic!("two layers") };
         // One pixel wide: 90 pixels hold eight whole dashes of 6 pixels with gaps of 5, and a dash of 2.
         assert_eq!(hidden.width_px, 1.0);
         let ends = hidden.polylines.iter().map(|dash| [dash.points_px[0].x, dash.points_px[1].x]);

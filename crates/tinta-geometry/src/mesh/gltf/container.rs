@@ -123,13 +123,13 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
 /// How many materials JSON of so many objects has at most; they are counted only where they may be too many.
 fn materials(json: &[u8], objects: usize) -> usize {
     #[derive(Deserialize, Default)]
-    struct Counted {
+    struct MaterialList {
         #[serde(default)]
         materials: Vec<IgnoredAny>,
     }
     match objects > MATERIALS {
         false => objects,
-        true => serde_json::from_slice::<Counted>(json).unwrap_or_default().materials.len(),
+        true => serde_json::from_slice::<MaterialList>(json).unwrap_or_default().materials.len(),
     }
 }
 

@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 /// The extension of a node.
 #[derive(Deserialize)]
-struct Said {
+struct InstanceExtension {
     #[serde(default)]
     attributes: Attributes,
 }
@@ -43,7 +43,9 @@ impl Instances {
             return Ok(None);
         }
         let others = node.extensions.as_ref().map(|extensions| &extensions.others);
-        let Some(Said { attributes }) = extensions::said::<Said>(others, INSTANCES)? else { return Ok(None) };
+        let Some(InstanceExtension { attributes }) = extensions::said::<InstanceExtension>(others, INSTANCES)? else {
+            return Ok(None);
+        };
         let Attributes { translation, rotation, scale } = attributes;
         let [translations, rotations, scales] = [translation, rotation, scale].map(|index| index.map(Index::new));
         let mut instances = Self { translations, rotations, scales, count: 0 };

@@ -281,7 +281,7 @@ mod tests {
     use super::super::tests::{load, triangle};
     use serde_json::{Value, json};
 
-    fn with_material(material: &Value) -> crate::mesh::Loaded {
+    fn with_material(material: &Value) -> crate::mesh::LoadedModel {
         let mut file = triangle();
         file["materials"][0] = material.clone();
         file["images"] = json!([{"uri": "data:image/png;base64,AAAA"}]);

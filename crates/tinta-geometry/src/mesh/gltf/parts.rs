@@ -113,8 +113,8 @@ pub(super) fn put(
             Some(instances) => instances.places(accessors)?.map(|from_mesh| scene_from_node * from_mesh).collect(),
         };
         for (number, copy) in copies.iter().enumerate() {
-            let put = |vertices| Placed::put(soup, vertices, copy, joints);
-            let sets: Vec<Placed> = vertices.iter().map(put).collect::<Result<_, String>>()?;
+            let put = |vertices| PlacedSet::put(soup, vertices, copy, joints);
+            let sets: Vec<PlacedSet> = vertices.iter().map(put).collect::<Result<_, String>>()?;
             if number + 1 == copies.len() && places.peek().is_none() {
                 // Before the corners take their memory.
                 vertices = Vec::new();
@@ -127,7 +127,7 @@ pub(super) fn put(
 }
 
 /// Adds a mesh's points, lines and faces between vertices that are placed.
-fn put_pieces(soup: &mut Soup, outline: &Outline<'_>, drawn: &[Primitives], sets: &[Placed]) {
+fn put_pieces(soup: &mut Soup, outline: &Outline<'_>, drawn: &[Primitives], sets: &[PlacedSet]) {
     for (piece, drawn) in outline.pieces.iter().zip(drawn) {
         let placed = &sets[piece.set];
         match drawn {
@@ -239,7 +239,7 @@ impl Vertices {
 }
 
 /// A set's vertices in the soup.
-struct Placed {
+struct PlacedSet {
     count: usize,
     first_position: u32,
     /// [`NONE`] where it has none, like the next.
@@ -249,7 +249,7 @@ struct Placed {
     mirrored: Vec<bool>,
 }
 
-impl Placed {
+impl PlacedSet {
     fn put(soup: &mut Soup, vertices: &Vertices, place: &DMat4, joints: Option<&[DMat4]>) -> Result<Self, String> {
         let first = |is_empty: bool, length: usize| if is_empty { NONE } else { length as u32 };
         let mut placed = Self {

@@ -2,7 +2,7 @@
 
 use super::container::{MATERIAL_BYTES, OBJECT_BYTES};
 use crate::LoadOptions;
-use crate::mesh::{Loaded, read_bytes};
+use crate::mesh::{LoadedModel, read_bytes};
 use base64::Engine;
 use gltf_json as json;
 use serde_json::Value;
@@ -66,7 +66,7 @@ pub(super) fn add_floats(file: &mut Value, kind: &str, numbers: &[f32]) -> usize
     add_accessor(file, 5126, kind, numbers.len() / size, &data)
 }
 
-pub(super) fn load(file: &Value) -> crate::Result<Loaded> {
+pub(super) fn load(file: &Value) -> crate::Result<LoadedModel> {
     read_bytes(&serde_json::to_vec(file).unwrap(), "t.gltf", &[], &LoadOptions::default())
 }
 

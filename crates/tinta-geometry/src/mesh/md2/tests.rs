@@ -13,7 +13,7 @@ struct Frame {
 }
 
 /// A file as a test wants it: two frames of four vertices, four triangles.
-struct Made {
+struct TestFile {
     frames: Vec<Frame>,
     triangles: Vec<[u16; 6]>,
     texels: Vec<[i16; 2]>,
@@ -21,14 +21,14 @@ struct Made {
 }
 
 /// A pyramid, three corners on the ground and its tip up in the file's axes; in the second frame the tip has moved.
-fn made() -> Made {
+fn made() -> TestFile {
     let frame = |name, forward: f32, tip: u8| Frame {
         name,
         scale: [0.5, 1.0, 2.0],
         translation: [forward, 0.0, -1.0],
         vertices: vec![[0, 0, 0, 9], [10, 0, 0, 9], [0, 10, 0, 9], [0, 0, tip, 9]],
     };
-    Made {
+    TestFile {
         frames: vec![frame("stand01", 100.0, 10), frame("run1", 102.0, 20)],
         // Clockwise seen from outside, as in the game.
         triangles: vec![[0, 1, 2, 0, 1, 2], [0, 3, 1, 0, 1, 2], [0, 2, 3, 0, 1, 2], [1, 3, 2, 2, 1, 0]],
@@ -43,7 +43,7 @@ fn field<const N: usize>(text: &str) -> [u8; N] {
     field
 }
 
-impl Made {
+impl TestFile {
     fn bytes(&self) -> Vec<u8> {
         let vertices = self.frames.first().map_or(0, |frame| frame.vertices.len());
         let frame_bytes = FRAME_HEADER_BYTES + vertices * VERTEX_BYTES;
@@ -267,7 +267,7 @@ fn pictures_beside_a_model_without_a_skin_are_named() {
 
 #[test]
 fn a_file_without_skins_is_drawn_and_that_is_said() {
-    let made = Made { skins: Vec::new(), ..made() };
+    let made = TestFile { skins: Vec::new(), ..made() };
     let mut remarks = Vec::new();
     let soup = read(&made.bytes(), "a.md2", &options("0"), &Folder::of("nowhere/a.md2", false), &mut remarks).unwrap();
     assert_eq!((soup.corners.len(), remarks.len()), (12, 1));

@@ -22,7 +22,7 @@ pub(super) fn put_on(
     folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<()> {
-    let mut read = Read::default();
+    let mut read = MaterialFiles::default();
     let (mut libraries, mut used) = (HashSet::new(), HashSet::new());
     let mut current = NONE;
     for (before, naming) in namings {
@@ -47,7 +47,7 @@ pub(super) fn put_on(
     if !used.is_empty() {
         soup.polygon_materials.resize(soup.polygon_count(), current);
     }
-    let Read { mut found, numbers, files, missing } = read;
+    let MaterialFiles { mut found, numbers, files, missing } = read;
     soup.files.extend(files);
     let unknown = used.iter().filter(|name| !numbers.contains_key(**name)).count();
     // A missing file's materials are missing, too: they are counted and reported once.
@@ -80,8 +80,8 @@ pub(super) fn put_on(
 
 /// The material files read so far.
 #[derive(Default)]
-struct Read {
-    found: Vec<Described>,
+struct MaterialFiles {
+    found: Vec<FileMaterial>,
     /// A name refers to the material read last, but only for later faces.
     numbers: HashMap<String, usize>,
     files: Vec<PathBuf>,
@@ -89,7 +89,7 @@ struct Read {
     missing: Vec<String>,
 }
 
-impl Read {
+impl MaterialFiles {
     /// Reads the files that a statement names; `None` if their materials are too many.
     fn statement(&mut self, statement: &str, folder: &Folder<'_>) -> Option<()> {
         let (files, missing) = material_files::find(folder, statement);
@@ -119,7 +119,7 @@ impl Read {
 
 /// A material as its file describes it.
 #[derive(Default)]
-pub(super) struct Described {
+pub(super) struct FileMaterial {
     pub material: Material,
     /// The names that its picture may have (`map_Kd`).
     pictures: Vec<String>,
@@ -141,7 +141,7 @@ pub(super) struct Described {
     has_unusable_color: bool,
 }
 
-impl Described {
+impl FileMaterial {
     /// The share of light that it stops. Some programs write `Tr 1` for opaque, others for invisible.
     fn opacity(&self) -> f32 {
         let opacity = self.opacity.or(self.transparency.map(|share| 1.0 - share).filter(|share| *share > 0.0));
@@ -177,8 +177,8 @@ const AS_IT_IS: Placing = [Vec2::ONE, Vec2::ZERO];
 
 /// Returns the materials of a library's text, with complete `newmtl`, `Kd` and `map_Kd` statements; `None` for more than
 /// `most`.
-pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
-    let mut all: Vec<Described> = Vec::new();
+pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<FileMaterial>> {
+    let mut all: Vec<FileMaterial> = Vec::new();
     let text = text::decoded(text);
     for line in String::from_utf8_lossy(&text::with_newlines(&text)).lines() {
         // `Kd` alone is one word.
@@ -194,7 +194,7 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
                     return None;
                 }
                 let material = Material { name: rest.to_owned(), color: None, ..Material::default() };
-                all.push(Described { material, placing: AS_IT_IS, ..Described::default() });
+                all.push(FileMaterial { material, placing: AS_IT_IS, ..FileMaterial::default() });
             }
             ("Kd", Some(one)) => {
                 let is_foreign = rest.starts_with("spectral") || rest.starts_with("xyz");
@@ -239,7 +239,7 @@ fn share(text: &str) -> Option<f32> {
 }
 
 /// Gives separate texture coordinates to corners whose material scales or moves its picture.
-fn move_coordinates(soup: &mut Soup, materials: &[Described]) {
+fn move_coordinates(soup: &mut Soup, materials: &[FileMaterial]) {
     if materials.iter().all(|one| one.placing == AS_IT_IS) {
         return;
     }
@@ -308,7 +308,7 @@ mod tests {
     use super::*;
     use crate::mesh::TextureAlpha;
 
-    fn of(text: &str) -> Vec<Described> {
+    fn of(text: &str) -> Vec<FileMaterial> {
         described(text.as_bytes(), 9).unwrap()
     }
 

@@ -144,9 +144,9 @@ fn colours_at_vertices_are_shares_of_their_types_largest_number() {
 #[test]
 fn every_type_of_number_is_read_at_its_extremes_from_both_kinds_of_binary_file() {
     /// A value with its bytes, little end first.
-    type Written = (f64, &'static [u8]);
+    type ValueBytes = (f64, &'static [u8]);
     // Of each type its largest and its smallest value.
-    let types: [(&str, Written, Written); 8] = [
+    let types: [(&str, ValueBytes, ValueBytes); 8] = [
         ("char", (127.0, &[0x7f]), (-128.0, &[0x80])),
         ("uchar", (255.0, &[0xff]), (0.0, &[0])),
         ("short", (32_767.0, &[0xff, 0x7f]), (-32_768.0, &[0, 0x80])),

@@ -19,16 +19,16 @@ pub(super) struct Cap {
 /// The caps at the left of directed sides, and whether they use all of these. Sides without anything at their left
 /// are turned.
 pub(super) fn over(sides: &[[u32; 2]], in_plane: impl Fn(u32) -> DVec2) -> (Vec<Cap>, bool) {
-    let found = Found::of(sides, &in_plane);
+    let found = CapRings::of(sides, &in_plane);
     if !found.outlines.is_empty() || found.rings.is_empty() {
         return found.caps(false);
     }
     let turned: Vec<[u32; 2]> = sides.iter().map(|[from, to]| [*to, *from]).collect();
-    Found::of(&turned, &in_plane).caps(true)
+    CapRings::of(&turned, &in_plane).caps(true)
 }
 
 /// The rings of some sides.
-struct Found {
+struct CapRings {
     rings: Vec<Vec<u32>>,
     points: Vec<Vec<DVec2>>,
     /// The outlines among them, each with its holes.
@@ -37,7 +37,7 @@ struct Found {
     is_closed: bool,
 }
 
-impl Found {
+impl CapRings {
     fn of(sides: &[[u32; 2]], in_plane: &impl Fn(u32) -> DVec2) -> Self {
         let (rings, is_closed) = rings(sides, in_plane);
         let points: Vec<Vec<DVec2>> =

@@ -2,7 +2,7 @@
 
 use super::caps::{self, Cap};
 use super::hatching::{self, upright};
-use crate::mesh::{Curves, Mesh, NONE, Named, NamedPart, Shells};
+use crate::mesh::{Curves, Mesh, NONE, NamedPart, PatternMatches, Shells};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap};
 
@@ -57,7 +57,7 @@ pub(super) struct OpenSide {
 type Corner = [u32; 3];
 
 impl Cutter {
-    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>, uncut: &[(Named, bool)], keeps_front: bool) -> Self {
+    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>, uncut: &[(PatternMatches, bool)], keeps_front: bool) -> Self {
         let highest = |numbers: &[u32]| numbers.iter().max().map_or(0, |highest| highest + 1);
         let count = mesh.triangles.len();
         let shells = Shells::of(mesh);

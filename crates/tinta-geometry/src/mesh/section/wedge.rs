@@ -5,7 +5,7 @@
 
 use super::cutter::{Cutter, OpenSide};
 use super::{Curves, Cut, SectionPlane, clipped};
-use crate::mesh::{Mesh, Named};
+use crate::mesh::{Mesh, PatternMatches};
 use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
 
@@ -14,7 +14,7 @@ impl Mesh {
     pub(super) fn cut_by_all(
         &self,
         planes: &[SectionPlane],
-        uncut: &[(Named, bool)],
+        uncut: &[(PatternMatches, bool)],
         spacing: f64,
         tolerance: f64,
     ) -> (Self, Cut) {

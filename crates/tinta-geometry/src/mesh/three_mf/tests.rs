@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::LoadOptions;
-use crate::mesh::{Loaded, read_bytes};
+use crate::mesh::{LoadedModel, read_bytes};
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use std::io::Write;
@@ -93,7 +93,7 @@ fn file(model: &str) -> Vec<u8> {
     zip(&[("3D/3dmodel.model", model.as_bytes())], How::default())
 }
 
-fn loaded(bytes: &[u8]) -> Result<Loaded> {
+fn loaded(bytes: &[u8]) -> Result<LoadedModel> {
     read_bytes(bytes, "t.3mf", &[], &LoadOptions::default())
 }
 
@@ -133,7 +133,7 @@ fn triangles_have_their_own_paint_or_their_objects_and_the_mean_where_corners_di
         <vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/><vertex x="0" y="0" z="1"/></vertices>
         <triangles>{triangles}</triangles></mesh></object>"##
     );
-    let Loaded { mesh, remarks, .. } = loaded(&file(&xml("", &resources, r#"<item objectid="1"/>"#))).unwrap();
+    let LoadedModel { mesh, remarks, .. } = loaded(&file(&xml("", &resources, r#"<item objectid="1"/>"#))).unwrap();
     let name = |triangle: usize| {
         mesh.materials.get(mesh.triangle_materials[triangle] as usize).map(|material| &*material.name)
     };
@@ -155,7 +155,7 @@ fn parts_of_the_file_are_read_however_they_are_packed() {
     let other = xml("unit=\"inch\"", &format!("<object id=\"7\" name=\"a\">{TRIANGLE}</object>"), "");
     let parts = [("3D/3dmodel.model", model.as_bytes()), ("3D/Objects/A.model", other.as_bytes())];
     for (is_deflated, is_long) in [(false, false), (true, false), (true, true)] {
-        let Loaded { mesh, remarks, .. } =
+        let LoadedModel { mesh, remarks, .. } =
             loaded(&zip(&parts, How { is_deflated, is_long, ..How::default() })).unwrap();
         assert_eq!((mesh.triangles.len(), mesh.bounds().1.x, remarks), (1, 25.4, vec![]));
     }

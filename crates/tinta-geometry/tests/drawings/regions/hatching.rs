@@ -117,7 +117,7 @@ fn is_inside(region: &Region<()>, px: DVec2) -> bool {
 }
 
 #[derive(Debug, Default)]
-struct Checked {
+struct StrokeTally {
     strokes: usize,
     samples: usize,
     wrong: usize,
@@ -127,7 +127,7 @@ struct Checked {
 }
 
 /// Checks the strokes of a scene, with rays along at most so many of each direction.
-fn check(name: &str, scene: &Scene, random: &mut Random, most_strokes: usize, all: &mut Checked) {
+fn check(name: &str, scene: &Scene, random: &mut Random, most_strokes: usize, all: &mut StrokeTally) {
     for rule in rules() {
         let regions = Regions::toned(&Sight::of(scene), &rule, &Progress::default()).unwrap();
         let (spacing, angle) = (2.0 + 14.0 * random.number(), -90.0 + 180.0 * random.number());
@@ -200,14 +200,14 @@ fn check(name: &str, scene: &Scene, random: &mut Random, most_strokes: usize, al
     }
 }
 
-fn judge(all: &Checked) {
+fn judge(all: &StrokeTally) {
     println!("{all:?}");
     assert!(all.strokes > 0 && all.regions > 0 && all.wrong as f64 <= 1e-5 * all.samples as f64, "{all:?}");
     assert!((all.length_times_spacing / all.area - 1.0).abs() < 0.01, "{all:?}");
 }
 
 fn check_families(count: u64) {
-    let mut all = Checked::default();
+    let mut all = StrokeTally::default();
     for seed in 1..=count {
         let mut random = Random::seeded(seed);
         let (name, scene) = scene_of_kind(seed as usize, &mut random);
@@ -231,7 +231,7 @@ fn strokes_lie_in_their_tones_and_cover_them_in_many_scenes() {
 #[test]
 fn strokes_of_public_models_lie_in_their_tones() {
     let models = public_meshes(&["cow.obj", "teapot.obj", "suzanne.obj"]);
-    let mut all = Checked::default();
+    let mut all = StrokeTally::default();
     for (name, mesh) in &models {
         let settings = SceneSettings { camera: view("30,23", false), ..SceneSettings::default() };
         let scene = Scene::new([mesh.clone()], &settings).unwrap();

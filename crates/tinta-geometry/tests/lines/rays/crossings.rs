@@ -1,6 +1,6 @@
 //! Whether lines are where faces pass through one another.
 
-use super::{Face, Found, Rays};
+use super::{Face, RayFindings, Rays};
 use crate::support::lines::{pierce, px};
 use glam::DVec3;
 use tinta::lines::VisibleLines;
@@ -8,7 +8,7 @@ use tinta::tolerances::CONTACT;
 
 impl Rays<'_> {
     /// Asserts that a segment passes through the image of each point that two faces clearly have in common.
-    pub(super) fn check_crossings(&self, lines: &VisibleLines, found: &mut Found) {
+    pub(super) fn check_crossings(&self, lines: &VisibleLines, found: &mut RayFindings) {
         for (number, first) in self.faces.iter().enumerate() {
             for second in &self.faces[..number] {
                 if first.low.cmpgt(second.high).any() || second.low.cmpgt(first.high).any() {

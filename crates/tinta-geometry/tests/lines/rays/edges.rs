@@ -1,6 +1,6 @@
 //! Which edges are lines, and whether all of each is there.
 
-use super::{Face, Found, Rays, SAME_PLACE_PX};
+use super::{Face, RayFindings, Rays, SAME_PLACE_PX};
 use crate::support::lines::px;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,7 +54,7 @@ impl Rays<'_> {
 
     /// Asserts that the segments of each edge have its class and follow one another without gap or overlap, unless another line
     /// fills the gap.
-    pub(super) fn check_edges(&self, lines: &VisibleLines, found: &mut Found) {
+    pub(super) fn check_edges(&self, lines: &VisibleLines, found: &mut RayFindings) {
         let mut pieces: BTreeMap<(u32, [u32; 2]), Vec<&LineSegment>> = BTreeMap::new();
         for piece in &lines.segments {
             if let Some([a, b]) = self.numbers(piece) {

@@ -1,8 +1,8 @@
 //! A look or a style that draws exact lines, measured as `tinta render` draws it.
 
-use crate::measure::{FrameTimes, Ink, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
+use crate::measure::{FrameTimes, Ink, MeasureSettings, Measurement, Row, RunTime, Subject, error_picture};
 use tinta::lines::{DrawingFormat, Progress};
-use tinta::request::{DrawingFile, Ground, Request, Resolved, Wanted};
+use tinta::request::{DrawingFile, Ground, Request, Resolved, WantedLines};
 use tinta::styles::Below;
 use tinta::{Error, Picture, Renderer, Result};
 
@@ -19,7 +19,7 @@ pub(super) fn measure_look(
     (look, request): (&str, &Request),
     options: String,
     how: &MeasureSettings,
-) -> Result<Measured> {
+) -> Result<Measurement> {
     let mut resolved = request.still(subject.scene.clone(), false)?;
     // A shadow has no lines.
     resolved.request.ground = Ground::None;
@@ -45,7 +45,7 @@ pub(super) fn measure_look(
         time: RunTime::new([subject.load_ms, 0.0, 0.0], times, Vec::new()),
         ..subject.row(how)
     };
-    Ok(Measured { row, drawing, error_picture: Some(error_picture(&ink, &subject.reference, tolerance_px)) })
+    Ok(Measurement { row, drawing, error_picture: Some(error_picture(&ink, &subject.reference, tolerance_px)) })
 }
 
 /// The exact lines of a drawing, alone.
@@ -54,7 +54,7 @@ pub(super) fn measure_look(
 ///
 /// As [`Resolved::drawn_lines`].
 pub(in crate::commands) fn exact_lines(resolved: &Resolved) -> Result<Picture> {
-    let lines = resolved.drawn_lines(Wanted::default(), &Progress::default())?;
+    let lines = resolved.drawn_lines(WantedLines::default(), &Progress::default())?;
     match lines.written(DrawingFormat::PIXELS, None, None)? {
         DrawingFile::Picture(picture, _) => Ok(picture),
         DrawingFile::Bytes(_) => Err(Error::setting("o", "lines are compared as pixels")),

@@ -2,7 +2,7 @@
 
 use super::errors::{error_page, is_shown, known_picture};
 use super::words::counted;
-use crate::measure::{Against, MeasureSettings, Measured, Row, Subject};
+use crate::measure::{Against, MeasureSettings, Measurement, Row, Subject};
 use crate::report::{ReportInfo, ReportPicture, RowLog, read_rows};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -81,7 +81,7 @@ impl<'a> Results<'a> {
     }
 
     /// Writes a row, and its picture if it is shown.
-    pub(super) fn keep(&mut self, Measured { row, drawing, error_picture }: Measured) -> Result<()> {
+    pub(super) fn keep(&mut self, Measurement { row, drawing, error_picture }: Measurement) -> Result<()> {
         if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
             return self.add(row, [&drawing, &picture]);
         }

@@ -42,7 +42,7 @@ pub enum Group {
 
 /// The required outcome of a case.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Expected {
+pub enum Demand {
     /// A picture, the same on every backend and with every omission, from finite numbers.
     Rendered,
     /// An error of this kind whose sentence contains these words.
@@ -175,7 +175,7 @@ pub struct Case {
     /// The work.
     pub work: Work,
     /// Its required outcome.
-    pub expected: Expected,
+    pub expected: Demand,
     /// The required values of figures.
     pub checks: Vec<Check>,
     /// The right answer in words; empty where outcome and figures say it all.
@@ -195,12 +195,12 @@ pub(super) fn viewed(view: &str) -> CameraSettings {
 }
 
 impl Case {
-    pub(super) fn of(group: Group, name: impl Into<String>, work: Work, expected: Expected) -> Self {
+    pub(super) fn of(group: Group, name: impl Into<String>, work: Work, expected: Demand) -> Self {
         Self { name: name.into(), group, work, expected, checks: Vec::new(), answer: "", is_degraded: false }
     }
 
     pub(super) fn rendered(group: Group, name: impl Into<String>, drawing: Drawing) -> Self {
-        Self::of(group, name, Work::Draw(Box::new(drawing)), Expected::Rendered)
+        Self::of(group, name, Work::Draw(Box::new(drawing)), Demand::Rendered)
     }
 
     /// The same for a picture that loses something by design.
@@ -211,11 +211,11 @@ impl Case {
     /// The kind of its right answer for a row; `is_known`: whether one of the row's figures has an answer.
     pub fn kind(&self, is_known: bool) -> &'static str {
         match self.expected {
-            Expected::Refused { .. } => "refused",
-            Expected::Either(_) => "holds or is refused",
-            Expected::Rendered if self.is_degraded => "degrades as computed",
-            Expected::Rendered if is_known => "holds",
-            Expected::Rendered => "drawn, and the same everywhere",
+            Demand::Refused { .. } => "refused",
+            Demand::Either(_) => "holds or is refused",
+            Demand::Rendered if self.is_degraded => "degrades as computed",
+            Demand::Rendered if is_known => "holds",
+            Demand::Rendered => "drawn, and the same everywhere",
         }
     }
 
@@ -227,7 +227,7 @@ impl Case {
         words: &'static str,
     ) -> Self {
         let drawing = Box::new(Drawing { study: Study::Picture, ..drawing });
-        Self::of(group, name, Work::Draw(drawing), Expected::Refused { kind, words })
+        Self::of(group, name, Work::Draw(drawing), Demand::Refused { kind, words })
     }
 
     /// The same with one more figure that must lie between two values.

@@ -1,6 +1,6 @@
 //! A driver that refuses, runs out of memory or loses its context, simulated by src/gl/faults.rs.
 
-use super::case::{Case, Expected, Group, Work};
+use super::case::{Case, Demand, Group, Work};
 use crate::stress::Variant;
 use tinta::gl::Fault;
 use tinta::styles::StyleName;
@@ -8,7 +8,7 @@ use tinta::styles::StyleName;
 pub(super) fn cases() -> Vec<Case> {
     let fails = |name: &str, fault, style, kind, words| {
         let work = Work::Fail(fault, Box::new(Variant::published(style)));
-        Case::of(Group::Faults, name, work, Expected::Refused { kind, words })
+        Case::of(Group::Faults, name, work, Demand::Refused { kind, words })
     };
     use StyleName::{Charcoal, Inking, Mrt, ThreePass};
     vec![

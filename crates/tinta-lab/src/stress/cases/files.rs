@@ -1,9 +1,9 @@
 //! Model files that lie, have another format, or are missing. docs/dev/limits.md has the other findings of fuzzing.
 
-use super::case::{Case, Content, Expected, Group, Work};
+use super::case::{Case, Content, Demand, Group, Work};
 
 pub(super) fn cases() -> Vec<Case> {
-    let refused = |words| Expected::Refused { kind: "model", words };
+    let refused = |words| Demand::Refused { kind: "model", words };
     let text = |text: &str| Content::Bytes(text.as_bytes().to_vec());
     const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     let ply = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n\
@@ -41,12 +41,12 @@ pub(super) fn cases() -> Vec<Case> {
         case("two billion frames", "lie.md2", Content::Bytes(md2), refused("lie.md2")),
         case("chunks longer than their file", "lie.3ds", Content::Bytes(three_ds.concat()), refused("lie.3ds")),
         case("a name of two lines", "two\nlines.obj", text("f"), refused("lines.obj")),
-        case("a square", "sound.obj", text(&format!("{SQUARE}f 1 2 3 4\n")), Expected::Rendered).with(
+        case("a square", "sound.obj", text(&format!("{SQUARE}f 1 2 3 4\n")), Demand::Rendered).with(
             "has_defects",
             0.0,
             0.0,
         ),
-        case("a square that crosses itself", "bow-tie.obj", text(&format!("{SQUARE}f 1 3 2 4\n")), Expected::Rendered)
+        case("a square that crosses itself", "bow-tie.obj", text(&format!("{SQUARE}f 1 3 2 4\n")), Demand::Rendered)
             .with("has_defects", 1.0, 1.0),
     ];
     // The file is its own material file.
@@ -54,11 +54,11 @@ pub(super) fn cases() -> Vec<Case> {
         let file = ["kd-0.obj", "kd-1.obj", "kd-2.obj", "kd-3.obj"][number];
         let content = text(&format!("mtllib {file}\nnewmtl a\n{kd}\n{SQUARE}usemtl a\nf 1 2 3 4\n"));
         let name = format!("a material whose colour is {kd}");
-        all.push(case(&name, file, content, Expected::Rendered).with("has_defects", 1.0, 1.0));
+        all.push(case(&name, file, content, Demand::Rendered).with("has_defects", 1.0, 1.0));
     }
     all
 }
 
-fn case(name: &str, file: &'static str, content: Content, expected: Expected) -> Case {
+fn case(name: &str, file: &'static str, content: Content, expected: Demand) -> Case {
     Case::of(Group::Files, name, Work::Read(file, content), expected)
 }

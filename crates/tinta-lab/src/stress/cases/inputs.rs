@@ -1,9 +1,9 @@
 //! What GL is given: normals, texture coordinates and skins of files, camera matrices of other programs, mirrored models, many
 //! vertices, and depth in 8 bits.
 
-use super::case::{Case, Drawing, Expected, Group, ROUNDED, Study, viewed};
+use super::case::{Case, Demand, Drawing, Group, ROUNDED, Study, viewed};
 use super::depth::{FAR, terraces};
-use crate::stress::{Shape, Variant, Written};
+use crate::stress::{Shape, Variant, WrittenShape};
 use glam::{DMat4, DVec3, DVec4};
 use tinta::scene::Size;
 use tinta::styles::{Border, Cartoon, Charcoal, Inking, MapEncoding, PaintMode, Style, StyleName};
@@ -22,12 +22,12 @@ fn same(name: impl Into<String>, answer: &'static str, drawing: Drawing, twin: D
     drawn(name, answer, drawing).with("twin_differing", 0.0, ROUNDED)
 }
 
-fn written(shape: Written) -> Drawing {
+fn written(shape: WrittenShape) -> Drawing {
     Drawing { shape: Shape::Written(shape), study: Study::Picture, ..Drawing::default() }
 }
 
 fn normals() -> Vec<Case> {
-    let of = |length| written(Written::Normals(length));
+    let of = |length| written(WrittenShape::Normals(length));
     let computed = "the program's own normals replace them";
     let direction = "only a normal's direction counts";
     vec![
@@ -47,7 +47,7 @@ fn textured() -> Vec<Variant> {
 
 fn textures() -> Vec<Case> {
     let of = |shape| Drawing { variants: textured(), ..written(shape) };
-    let coordinates = |times| of(Written::Coordinates(times));
+    let coordinates = |times| of(WrittenShape::Coordinates(times));
     let unusable = "corners without usable coordinates read the picture's corner";
     let mut all = vec![same(
         "texture coordinates that are no numbers",
@@ -56,7 +56,7 @@ fn textures() -> Vec<Case> {
         coordinates(Some(0.0)),
     )];
     let some = "each pixel reads some texel, because 24 bits hold no fraction of such a number";
-    let [few, many] = [16, 1024].map(|side| of(Written::Skin(side, side)));
+    let [few, many] = [16, 1024].map(|side| of(WrittenShape::Skin(side, side)));
     let many = Drawing { twin: Some(Box::new(few)), ..many };
     let many = drawn("a skin with some seventy texels for a pixel", "it is as dark as one with few texels", many);
     all.push(many.with("twin_darker", -0.002, 0.002));
@@ -67,8 +67,8 @@ fn textures() -> Vec<Case> {
         ("a skin 65,537 texels high", "a skin beyond the driver's limit is refused", 2, 65_537),
     ];
     all.extend(skins.map(|(name, answer, width, height)| {
-        let case = drawn(name, answer, of(Written::Skin(width, height)));
-        Case { expected: Expected::Either(&["picture", "gl"]), ..case }
+        let case = drawn(name, answer, of(WrittenShape::Skin(width, height)));
+        Case { expected: Demand::Either(&["picture", "gl"]), ..case }
     }));
     let grain = |side: u32| {
         let style = Charcoal { texture_size: Size { width: side, height: side }, ..Charcoal::default() };

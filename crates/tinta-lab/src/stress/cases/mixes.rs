@@ -1,6 +1,6 @@
 //! The worst of all groups together, drawn at random from a seed.
 
-use super::case::{Case, Drawing, Expected, Group};
+use super::case::{Case, Demand, Drawing, Group};
 use crate::stress::{Shape, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;
@@ -47,7 +47,7 @@ fn mix(random: &mut Random, seed: u64, number: usize) -> Case {
     variants.truncate(3);
     let drawing = Drawing { shape, scale, offset, camera, size, variants, ..Drawing::default() };
     let case = Case::rendered(Group::Mixes, format!("mix {number} of seed {seed}"), drawing);
-    Case { expected: Expected::Either(&["setting"]), ..case }
+    Case { expected: Demand::Either(&["setting"]), ..case }
 }
 
 /// Fitted, or somewhere in or around the unit cube, with any angle and planes.

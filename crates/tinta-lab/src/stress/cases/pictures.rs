@@ -1,7 +1,7 @@
 //! Pictures of one pixel, of odd sizes, of the largest size that is drawn in one piece and one more.
 
 use super::case::{Case, Drawing, Group, LARGEST, Study};
-use crate::stress::{Shape, Variant, Written};
+use crate::stress::{Shape, Variant, WrittenShape};
 use tinta::scene::Size;
 use tinta::styles::StyleName;
 
@@ -11,7 +11,7 @@ const STRIP: u32 = 4096;
 
 pub(super) fn cases() -> Vec<Case> {
     let sized = |width, height| Drawing {
-        shape: Shape::Written(Written::Skin(16, 16)),
+        shape: Shape::Written(WrittenShape::Skin(16, 16)),
         size: Size { width, height },
         variants: styles(),
         study: Study::Picture,

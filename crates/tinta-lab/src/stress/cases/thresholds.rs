@@ -84,7 +84,7 @@ fn borders() -> Vec<Case> {
     }
     for (name, width) in [("a line width of 1e-6", 1e-6), ("a line width of 1e3", 1e3)] {
         let case = inking(name, Inking { line_width: Length::Px(width), ..Inking::default() });
-        all.push(Case { expected: super::Expected::Either(&["setting"]), ..case });
+        all.push(Case { expected: super::Demand::Either(&["setting"]), ..case });
     }
     all.push(inking("a polygon offset of 1e9", Inking { polygon_offset: [1e9, -1e9], ..Inking::default() }));
     all

@@ -3,10 +3,10 @@
 //! Input: a mesh and its edges. Output: the faces to remove. Then each region of a plane counts once, whatever the diagonals,
 //! first corners and directions of its polygons: only sides of whole polygons are compared.
 //!
-//! Sheets with the same outline cover one another. A sheet continues across each stretch of an edge that has exactly
+//! Layers with the same outline cover one another. A layer continues across each stretch of an edge that has exactly
 //! one polygon on either side. A region ends at stretches with more polygons on one side than on the other, so all parts of it are
 //! covered equally often. Regions covered three times or more come first: there, two layers may have a triangle in common that is
-//! no sheet. Faces can overlap only if two of them lie on the same side of an edge, or of collinear edges; other meshes need one
+//! no layer. Faces can overlap only if two of them lie on the same side of an edge, or of collinear edges; other meshes need one
 //! test per edge.
 
 use crate::disjoint_sets::DisjointSets;
@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The covered faces: in each region all except the set with the lowest number. `chains` are the edges that others
 /// cover.
-pub(in crate::lines) fn repeated_sheets(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> HashSet<u32> {
+pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> HashSet<u32> {
     let planar = Planar::new(mesh);
     let at_edges = in_chunks(edges.len(), EDGES_A_THREAD, threads_for(edges.len()), |range| {
         let mut pairs = Vec::new();
@@ -40,7 +40,7 @@ pub(in crate::lines) fn repeated_sheets(mesh: &Mesh, edges: &EdgeList, chains: &
     for cluster in planar.clusters(edges, &edge_of, &pairs, &links) {
         let mut plane = planar.plane(&cluster);
         while plane.remove_covered(3, is_region)
-            || plane.remove_covered(2, is_sheet)
+            || plane.remove_covered(2, is_layer)
             || plane.remove_covered(2, is_region)
         {}
         let kept: HashSet<u32> = plane.polygons.iter().flat_map(|polygon| &polygon.faces).copied().collect();
@@ -87,7 +87,7 @@ struct Region {
     balances: HashMap<[u32; 2], i32>,
 }
 
-fn is_sheet(at_piece: &AtPiece) -> bool {
+fn is_layer(at_piece: &AtPiece) -> bool {
     at_piece.balance == 0 && at_piece.polygons.len() == 2
 }
 
