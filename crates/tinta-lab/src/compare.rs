@@ -58,7 +58,7 @@ impl InkMask {
 
     /// The ink of the pixels whose middles satisfy a condition.
     #[must_use]
-    pub fn kept(mut self, holds: impl Fn(DVec2) -> bool) -> Self {
+    pub(crate) fn kept(mut self, holds: impl Fn(DVec2) -> bool) -> Self {
         let width = self.size.width as usize;
         for (index, ink) in self.ink.iter_mut().enumerate().filter(|(_, ink)| **ink) {
             *ink = holds(DVec2::new((index % width) as f64 + 0.5, (index / width) as f64 + 0.5));
@@ -68,7 +68,7 @@ impl InkMask {
 
     /// The ink that another mask of the same size has too.
     #[must_use]
-    pub fn and(mut self, other: &Self) -> Self {
+    pub(crate) fn and(mut self, other: &Self) -> Self {
         self.ink.iter_mut().zip(&other.ink).for_each(|(ink, other)| *ink &= *other);
         self
     }
@@ -86,7 +86,7 @@ impl InkMask {
     }
 
     /// Number of pixels that are ink in one and not in the other.
-    pub fn differing(&self, other: &Self) -> usize {
+    pub(crate) fn differing(&self, other: &Self) -> usize {
         self.ink.iter().zip(&other.ink).filter(|(ink, other)| ink != other).count()
     }
 

@@ -33,9 +33,9 @@ mod ink_color;
 mod matching;
 mod thin;
 
-pub use doubt::Doubt;
+pub(crate) use doubt::Doubt;
 pub use entry::Entry;
-pub use fit::{Fit, LARGEST_SCALE, LARGEST_SHIFT};
+pub use fit::Fit;
 pub use ink_color::InkColor;
 pub use matching::matched;
 pub use thin::thinned;

@@ -29,9 +29,10 @@ mod table;
 mod variants;
 mod written;
 
-pub use cases::{Case, Check, Content, Demand, Drawing, Group, Study, Work, cases};
-pub use jitter::{Flips, PoppedShares};
-pub use run::{MissingBackend, Row, StressSettings, Summary, run};
+pub(crate) use cases::Study;
+pub use cases::{Content, Drawing, Group, Work, cases};
+pub use jitter::Flips;
+pub use run::{Row, StressSettings, Summary, run};
 pub use shapes::Shape;
-pub use variants::Variant;
-pub use written::WrittenShape;
+pub(crate) use variants::Variant;
+pub(crate) use written::WrittenShape;

@@ -9,7 +9,7 @@ mod pictures;
 
 use super::{Content, Figure, Numbers, PassColumn, Text};
 use pictures::pictures;
-pub use pictures::{PictureRecord, png_source, svg_source};
+pub(crate) use pictures::{PictureRecord, png_source, svg_source};
 use serde::Serialize;
 use std::fmt::Write;
 use tinta::page::{Pictures, beginning};
@@ -18,7 +18,7 @@ use tinta_geometry::markup::escaped;
 
 /// A finished figure, for the page and for `figures.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FigureRecord {
+pub(crate) struct FigureRecord {
     /// Its name for `--only`.
     pub id: &'static str,
     /// The text it is in.
@@ -45,7 +45,7 @@ pub struct FigureRecord {
 
 impl FigureRecord {
     /// A record of a figure without pictures yet.
-    pub fn new(figure: &Figure, command: String) -> Self {
+    pub(crate) fn new(figure: &Figure, command: String) -> Self {
         let Figure { id, text, number, title, caption, .. } = *figure;
         Self {
             id,
@@ -65,7 +65,7 @@ impl FigureRecord {
 
 /// The drawings and measurements.
 #[derive(Debug, Clone, Copy)]
-pub struct PageContent<'a> {
+pub(crate) struct PageContent<'a> {
     /// The figures.
     pub figures: &'a [FigureRecord],
     /// Section 5's numbers, if they were measured.
@@ -73,7 +73,7 @@ pub struct PageContent<'a> {
 }
 
 /// The page.
-pub fn page(shown: PageContent<'_>, gl: &str, size: Size) -> String {
+pub(crate) fn page(shown: PageContent<'_>, gl: &str, size: Size) -> String {
     let mut out = String::new();
     // Writing to a String cannot fail.
     let _ = write(&mut out, shown, gl, size);

@@ -12,10 +12,10 @@ use std::fmt::{Display, Formatter};
 use tinta::scene::Size;
 
 /// Farthest shift, as a share of the picture's diagonal.
-pub const LARGEST_SHIFT: f64 = 0.05;
+pub(crate) const LARGEST_SHIFT: f64 = 0.05;
 
 /// Most that the lines are made larger or smaller.
-pub const LARGEST_SCALE: f64 = 1.1;
+pub(crate) const LARGEST_SCALE: f64 = 1.1;
 
 /// A place beyond this share of the diagonal is as far as any: where lines lack, they must not pull.
 const FARTHEST: f64 = 0.03;
@@ -45,7 +45,7 @@ pub struct Fit {
 
 impl Fit {
     /// The best one within the limits, by the mean distance between lines and ink both ways.
-    pub fn of(ink: &Ink, reference: &Reference) -> Self {
+    pub(crate) fn of(ink: &Ink, reference: &Reference) -> Self {
         let lines: Vec<DVec2> = reference.samples.iter().map(|sample| sample.px).collect();
         let inked: Vec<DVec2> = ink.pixels(INK_FROM).map(|(_, middle)| middle).collect();
         let still = Self::new(ink.size, [false; 2]);
@@ -77,7 +77,7 @@ impl Fit {
     }
 
     /// Where a place of the exact lines' picture lies in the drawing, pixels from the upper left corner.
-    pub fn apply(&self, px: DVec2) -> DVec2 {
+    pub(crate) fn apply(&self, px: DVec2) -> DVec2 {
         let middle = DVec2::from_array(self.middle_px);
         middle + (px - middle) * self.mirrors() * self.scale + DVec2::from_array(self.shift_px)
     }

@@ -63,7 +63,7 @@ impl Ink {
     }
 
     /// The ink pixels.
-    pub fn mask(&self) -> InkMask {
+    pub(crate) fn mask(&self) -> InkMask {
         InkMask::of_darkness(self.size, &self.darkness)
     }
 

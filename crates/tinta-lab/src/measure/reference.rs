@@ -100,7 +100,7 @@ impl Reference {
     /// # Errors
     ///
     /// As [`VisibleLines::with_progress`].
-    pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
+    pub(crate) fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         // Ink is compared with visible lines.
         let seen = LineSettings { finds_hidden: false, ..settings.clone() };
         Self::of_lines(scene, VisibleLines::with_progress(scene, &seen, progress)?, settings, progress)
@@ -154,7 +154,7 @@ impl Reference {
 
     /// The same with each visible point moved; the lines themselves do not move.
     #[must_use]
-    pub fn moved(&self, to: impl Fn(DVec2) -> DVec2) -> Self {
+    pub(crate) fn moved(&self, to: impl Fn(DVec2) -> DVec2) -> Self {
         let samples: Vec<Sample> = self.samples.iter().map(|sample| Sample { px: to(sample.px), ..*sample }).collect();
         Self {
             size: self.size,

@@ -49,7 +49,7 @@ pub struct Row {
 
 impl Row {
     /// The key of a row: machine, model, size and options.
-    pub fn key(&self) -> String {
+    pub(crate) fn key(&self) -> String {
         format!(
             "{} | {} | {} | {}x{} | {}",
             self.machine, self.renderer, self.model, self.size[0], self.size[1], self.options

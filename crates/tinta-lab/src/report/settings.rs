@@ -21,7 +21,7 @@ impl Measure {
         [("lines", Self::Lines), ("tones", Self::Tones), ("continuous-tones", Self::ContinuousTones)];
 
     /// The row's error; 0 is best.
-    pub fn error(self, row: &Row) -> Option<f64> {
+    pub(crate) fn error(self, row: &Row) -> Option<f64> {
         match self {
             // Cut at zero: rounding may take F1 past 1.
             Self::Lines => row.lines.as_ref().map(|lines| (1.0 - lines.f1).max(0.0)),

@@ -13,7 +13,8 @@ mod topology;
 mod turntable;
 
 pub(super) use case::side_px;
-pub use case::{Case, Check, Content, Demand, Drawing, Group, Study, Work};
+pub(crate) use case::{Case, Demand, Study};
+pub use case::{Content, Drawing, Group, Work};
 
 /// All cases in the groups' order; `seed` decides the `mixes` random ones.
 pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {

@@ -29,7 +29,7 @@ pub struct Flips {
 
 /// How much came and went, in a picture and by the exact scene, as shares.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct PoppedShares {
+pub(crate) struct PoppedShares {
     /// The popped share of a style's ink, and of the exact lines.
     pub ink: Option<[f64; 2]>,
     /// The popped share of a style's shading, and of the same formula in f64, if computed.

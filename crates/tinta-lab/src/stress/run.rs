@@ -58,7 +58,7 @@ impl StressSettings {
     /// # Errors
     ///
     /// [`Error::Setting`] when no case has such a name.
-    pub fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         self.cases().map(drop)
     }
 }

@@ -94,7 +94,7 @@ impl Shape {
     /// # Errors
     ///
     /// The errors of a file with the same triangles.
-    pub fn mesh(self, scale: f64, offset: DVec3, folder: &Path, options: &LoadOptions) -> Result<Mesh> {
+    pub(crate) fn mesh(self, scale: f64, offset: DVec3, folder: &Path, options: &LoadOptions) -> Result<Mesh> {
         let (positions, triangles) = match self {
             Self::Builtin(name) if scale == 1.0 && offset == DVec3::ZERO => {
                 return Ok(load(name, options)?.mesh);

@@ -14,18 +14,18 @@ pub struct Variant {
 
 impl Variant {
     /// A style under a name that states its options.
-    pub fn new(name: impl Into<String>, style: Style) -> Self {
+    pub(crate) fn new(name: impl Into<String>, style: Style) -> Self {
         Self { name: name.into(), style }
     }
 
     /// A style as published.
-    pub fn published(name: StyleName) -> Self {
+    pub(crate) fn published(name: StyleName) -> Self {
         let style = Style::named(name);
         Self::new(style.name(), style)
     }
 
     /// Every style that draws any model, as published, and the mended forms of those that have one. `sand` needs a texture.
-    pub fn all() -> Vec<Self> {
+    pub(crate) fn all() -> Vec<Self> {
         let of_any_model = StyleName::of_passes().filter(|(_, name)| *name != StyleName::Sand);
         let mut all: Vec<Self> = of_any_model.map(|(_, name)| Self::published(name)).collect();
         all.extend([Self::mended_three_pass(), Self::exact_inking(), Self::mended_charcoal()]);
@@ -33,7 +33,7 @@ impl Variant {
     }
 
     /// The styles with geometric lines, faithful and corrected: for cases too large to draw in all styles.
-    pub fn of_lines() -> Vec<Self> {
+    pub(crate) fn of_lines() -> Vec<Self> {
         vec![Self::published(StyleName::ThreePass), Self::published(StyleName::Ink), Self::exact_inking()]
     }
 

@@ -209,7 +209,7 @@ impl Case {
     }
 
     /// The kind of its right answer for a row; `is_known`: whether one of the row's figures has an answer.
-    pub fn kind(&self, is_known: bool) -> &'static str {
+    pub(crate) fn kind(&self, is_known: bool) -> &'static str {
         match self.expected {
             Demand::Refused { .. } => "refused",
             Demand::Either(_) => "holds or is refused",
