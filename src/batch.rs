@@ -25,10 +25,12 @@ mod output_path;
 mod slice;
 
 pub use entry::{Entry, Failure, Outcome};
-pub use job::{Job, JobCommand, OUTPUTS};
+pub use job::Job;
+pub(crate) use job::{JobCommand, OUTPUTS};
 pub(crate) use journal::entries;
 pub use journal::{Journal, add_entries};
-pub use list::{List, read_list};
+pub use list::List;
+pub(crate) use list::read_list;
 pub(crate) use named_outputs::are_there;
 pub use output_path::place_in;
 pub use slice::Slice;

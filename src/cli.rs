@@ -36,7 +36,8 @@ mod standard_output;
 #[cfg(feature = "window")]
 mod view;
 
-pub use command::{Call, Command, Program, Task, Verdict, given};
+pub(crate) use command::Task;
+pub use command::{Call, Command, Program, Verdict, given};
 pub use messages::{json_text, make_folder, plain, print, print_json, say};
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -10,10 +10,10 @@ use crate::error::{Error, Result};
 use std::collections::HashMap;
 use std::path::Path;
 
-pub mod es;
+pub(crate) mod es;
 
 /// A shader's path below `glsl/` and its text.
-pub type Source = (&'static str, &'static str);
+pub(crate) type Source = (&'static str, &'static str);
 
 macro_rules! sources {
     ($($path:literal),* $(,)?) => {
@@ -134,7 +134,7 @@ const LONGEST: u64 = 1 << 20;
 
 /// The shaders that a folder laid out like `glsl/` has in place of those built in, by their paths: files of the same names with other
 /// texts.
-pub fn in_folder(folder: &Path) -> HashMap<String, String> {
+pub(crate) fn in_folder(folder: &Path) -> HashMap<String, String> {
     let read = |path: &str| {
         let file = folder.join(path);
         let is_short = std::fs::metadata(&file).is_ok_and(|file| file.is_file() && file.len() <= LONGEST);

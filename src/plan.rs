@@ -32,13 +32,16 @@ mod target;
 mod tiles;
 
 pub use check::Flaw;
-pub use facts::{Facts, Shorter, WhereEven};
+pub(crate) use facts::WhereEven;
+pub use facts::{Facts, Shorter};
 pub(crate) use program::TOOTH;
-pub use program::{PlanPicture, Program, Sampling, Texture, Uniform, Value};
+pub(crate) use program::{PlanPicture, Sampling};
+pub use program::{Program, Texture, Uniform, Value};
 pub use submission::Submission;
 pub(crate) use target::DEPTH_COPY;
 pub use target::{Attachment, Attachments, Format, SettingValue, Target, TextureName};
-pub use tiles::{Tile, TileLimits};
+pub(crate) use tiles::Tile;
+pub use tiles::TileLimits;
 
 use crate::culling::DrawnFaces;
 use crate::mesh::VertexArrays;
@@ -251,7 +254,7 @@ pub struct EdgeRun {
 
 impl EdgeRun {
     /// Returns the vertices that its ends index, given the object's arrays.
-    pub fn vertices<'a>(&'a self, arrays: &'a VertexArrays) -> &'a [[f32; 6]] {
+    pub(crate) fn vertices<'a>(&'a self, arrays: &'a VertexArrays) -> &'a [[f32; 6]] {
         self.own_vertices.as_ref().unwrap_or(&arrays.vertices)
     }
 }
@@ -350,7 +353,7 @@ impl Step {
     }
 
     /// Returns a short name for files and tables.
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Clear { .. } | Self::ClearEach { .. } => "clear",
             Self::CopyFramebuffer => "copy",

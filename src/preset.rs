@@ -36,7 +36,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 pub(crate) const LARGEST_BYTES: u64 = 64 << 10;
 
 /// How the names of presets that ship begin.
-pub const PREFIX: &str = "paper:";
+pub(crate) const PREFIX: &str = "paper:";
 
 /// A preset: the options it sets, with their lines.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -128,7 +128,7 @@ impl Preset {
     }
 
     /// Options from another source; `name` is its name in errors.
-    pub fn of_options(name: &str, options: Options) -> Self {
+    pub(crate) fn of_options(name: &str, options: Options) -> Self {
         Self { name: name.to_owned(), options, lines: BTreeMap::new() }
     }
 
@@ -140,7 +140,7 @@ impl Preset {
     }
 
     /// The line of an option, 1-based.
-    pub fn line_of(&self, option: &str) -> Option<u64> {
+    pub(crate) fn line_of(&self, option: &str) -> Option<u64> {
         self.lines.get(option).copied()
     }
 

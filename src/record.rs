@@ -13,7 +13,8 @@ mod lines;
 mod regions;
 
 pub use camera::CameraRecord;
-pub use lines::{LineCounts, LinesMade, drawing_json};
+pub use lines::drawing_json;
+pub(crate) use lines::{LineCounts, LinesMade};
 pub(crate) use regions::px_per_unit;
 pub use regions::regions_json;
 
@@ -28,7 +29,7 @@ use serde::Serialize;
 
 /// A drawing's record: enough to repeat it and to compare its cost.
 #[derive(Debug, Clone, Serialize)]
-pub struct Record {
+pub(crate) struct Record {
     /// tinta's version.
     pub version: &'static str,
     /// All models together, with copies counted once; their paths with commas between them.
@@ -64,7 +65,7 @@ pub struct Record {
 /// The settings and times of a drawing.
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
-pub enum DrawingFacts {
+pub(crate) enum DrawingFacts {
     /// In passes, by OpenGL.
     Picture(Box<PictureMade>),
     /// As exact lines.
@@ -73,7 +74,7 @@ pub enum DrawingFacts {
 
 /// The settings and times of a picture.
 #[derive(Debug, Clone, Serialize)]
-pub struct PictureMade {
+pub(crate) struct PictureMade {
     /// The picture of the style.
     pub show: Show,
     /// The colour of surfaces without one, or of all.

@@ -32,7 +32,7 @@ use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
 use crate::scene::{ObjectIdentity, Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use crate::values::Rectangle;
-pub use drawer::StepValues;
+pub(crate) use drawer::StepValues;
 use drawer::{Assembly, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -116,7 +116,7 @@ impl Renderer {
     ///
     /// [`Error::NoContext`] if the browser has no WebGL or lacks a needed part of it.
     #[cfg(target_arch = "wasm32")]
-    pub fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self> {
+    pub(crate) fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self> {
         Ok(Self::with(Backend::Auto, None, Context::on_canvas(canvas)?))
     }
 
@@ -455,7 +455,7 @@ impl Renderer {
     }
 
     /// The shaders of [`Renderer::replace_shaders`], by their paths.
-    pub fn replaced_shaders(&self) -> HashMap<String, String> {
+    pub(crate) fn replaced_shaders(&self) -> HashMap<String, String> {
         self.drawers[0].resources.given_shaders()
     }
 

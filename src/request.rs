@@ -30,7 +30,8 @@ mod resolve;
 mod session;
 
 pub use around::{Around, LINES_AT_ONCE_MS};
-pub use draw::{DrawnPicture, ReadModels, Times};
+pub use draw::Times;
+pub(crate) use draw::{DrawnPicture, ReadModels};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::WantedLines;
@@ -154,7 +155,7 @@ pub struct PruneSettings {
 
 impl PruneSettings {
     /// The pruning for this renderer; `None` to prune nothing.
-    pub fn pruning(&self, renderer: &Renderer) -> Option<Pruning> {
+    pub(crate) fn pruning(&self, renderer: &Renderer) -> Option<Pruning> {
         (!self.is_full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning() })
     }
 }
@@ -411,7 +412,7 @@ impl Request {
     }
 
     /// Whether the picture has no background.
-    pub fn is_transparent(&self) -> bool {
+    pub(crate) fn is_transparent(&self) -> bool {
         self.scene.background == crate::scene::Background::Transparent
     }
 

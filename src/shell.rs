@@ -6,7 +6,7 @@
 //! ```
 
 /// The program's name and its words, quoted where needed.
-pub fn command_line(words: impl Iterator<Item = String>) -> String {
+pub(crate) fn command_line(words: impl Iterator<Item = String>) -> String {
     words.fold("tinta".to_owned(), |text, word| text + " " + &quoted(&word))
 }
 

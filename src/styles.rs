@@ -55,8 +55,7 @@ pub use back_faces::BackFaces;
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
 pub use charcoal::{
-    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, CharcoalRecipe, ContrastOperator, Improvements, Noise,
-    TextureSource,
+    CetCoordinate, CetFilter, Charcoal, CharcoalRecipe, ContrastOperator, Improvements, Noise, TextureSource,
 };
 pub use coarse::coarse;
 pub use contents::{Below, Contents, ViewAreas};
@@ -72,7 +71,8 @@ pub use map::{MapEncoding, MapTarget};
 pub use mrt::Mrt;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
-pub use row::{Mark, Origin, Outline, StyleInfo};
+pub(crate) use row::StyleInfo;
+pub use row::{Mark, Origin, Outline};
 pub use show::Show;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
@@ -367,7 +367,7 @@ fn no_passes(style: &str) -> Error {
 
 impl StyleName {
     /// Returns all names, separated by commas.
-    pub fn list() -> String {
+    pub(crate) fn list() -> String {
         Self::ALL.map(|(name, _)| name).join(", ")
     }
 

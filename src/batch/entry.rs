@@ -29,7 +29,7 @@ pub struct Outcome {
 
 impl Outcome {
     /// The outcome of a job that failed for this reason.
-    pub fn failed(kind: &str, problem: impl Into<String>) -> Self {
+    pub(crate) fn failed(kind: &str, problem: impl Into<String>) -> Self {
         Self { error: Some(Failure { kind: kind.to_owned(), problem: problem.into() }), ..Self::default() }
     }
 }
@@ -46,7 +46,7 @@ pub struct Entry {
 
 impl Entry {
     /// Makes the entry of a job.
-    pub fn new(job: &Job, outcome: Outcome) -> Self {
+    pub(crate) fn new(job: &Job, outcome: Outcome) -> Self {
         // A job's text is JSON.
         Self { job: serde_json::from_str(&job.json).unwrap_or_default(), outcome }
     }

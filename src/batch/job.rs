@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fmt::Formatter;
 
 /// The options that name a file or folder to write.
-pub const OUTPUTS: [&str; 3] = ["output", "dump", "save-preset"];
+pub(crate) const OUTPUTS: [&str; 3] = ["output", "dump", "save-preset"];
 
 tinta_geometry::choices! {
     /// The commands that jobs may be.
@@ -81,7 +81,7 @@ impl Job {
     }
 
     /// The options that name output files, with those names.
-    pub fn outputs(&self) -> impl Iterator<Item = (&'static str, &str)> {
+    pub(crate) fn outputs(&self) -> impl Iterator<Item = (&'static str, &str)> {
         OUTPUTS.into_iter().filter_map(|option| match self.options.get(option)? {
             OptionValue::Text(output) => Some((option, output.as_str())),
             _ => None,

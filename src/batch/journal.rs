@@ -44,7 +44,7 @@ impl Journal {
     /// # Errors
     ///
     /// [`Error::File`] if it cannot be written: no partial line is left.
-    pub fn append(&mut self, entry: &Entry) -> Result<()> {
+    pub(crate) fn append(&mut self, entry: &Entry) -> Result<()> {
         let refuse = |problem: String| Error::output(&self.path, problem);
         let mut line = serde_json::to_string(entry).map_err(|error| refuse(format!("{error}; please report this")))?;
         line.push('\n');

@@ -52,7 +52,7 @@ impl List {
 /// # Errors
 ///
 /// [`Error::File`] if it cannot be read.
-pub fn read_list(path: &Path) -> Result<Vec<u8>> {
+pub(crate) fn read_list(path: &Path) -> Result<Vec<u8>> {
     files::read(path, BATCH_BYTES).map_err(|failure| failure.into_error(FileKind::Batch, path, "a list of jobs"))
 }
 

@@ -19,15 +19,15 @@ impl Slice {
     pub const WHOLE: Self = Self { count: 1, number: 1 };
 
     /// Most parts.
-    pub const MOST: u32 = 100_000;
+    pub(crate) const MOST: u32 = 100_000;
 
     /// Whether the job at this place of the list, from 0, is in this slice.
-    pub fn has(self, place: usize) -> bool {
+    pub(crate) fn has(self, place: usize) -> bool {
         place as u64 % u64::from(self.count) == u64::from(self.number) - 1
     }
 
     /// The file in the batch's folder that its entries go to.
-    pub fn file_name(self) -> String {
+    pub(crate) fn file_name(self) -> String {
         format!("batch-{}-of-{}.jsonl", self.number, self.count)
     }
 

@@ -42,7 +42,7 @@ pub struct Command {
 }
 
 /// A job that was checked.
-pub type Task = Box<dyn FnOnce(&mut Session) -> Result<Verdict>>;
+pub(crate) type Task = Box<dyn FnOnce(&mut Session) -> Result<Verdict>>;
 
 /// The parts of the run that a command may use.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ const FIRST_OF_MANAGING: &str = "batch";
 
 impl Program {
     /// A program of these commands.
-    pub fn of(commands: Vec<Command>) -> Self {
+    pub(crate) fn of(commands: Vec<Command>) -> Self {
         Self {
             commands,
             #[cfg(feature = "window")]
@@ -119,12 +119,12 @@ impl Program {
     }
 
     /// The commands, as help lists them.
-    pub fn commands(&self) -> &[Command] {
+    pub(crate) fn commands(&self) -> &[Command] {
         &self.commands
     }
 
     /// The command of this name.
-    pub fn named(&self, name: &str) -> Option<&Command> {
+    pub(crate) fn named(&self, name: &str) -> Option<&Command> {
         self.commands.iter().find(|command| command.name == name)
     }
 }

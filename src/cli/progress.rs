@@ -35,7 +35,7 @@ impl Progress {
     }
 
     /// The amount of work is still unknown.
-    pub fn wait(&self) {
+    pub(crate) fn wait(&self) {
         if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed} so far") {
             self.0.set_style(style);
         }
@@ -44,7 +44,7 @@ impl Progress {
     }
 
     /// One step more is done.
-    pub fn step(&self) {
+    pub(crate) fn step(&self) {
         self.0.inc(1);
     }
 }

@@ -34,7 +34,8 @@ mod wgl;
 #[cfg(feature = "window")]
 pub(crate) mod window;
 
-pub use backend::{Attempt, Backend, Outcome};
+pub(crate) use backend::Attempt;
+pub use backend::{Backend, Outcome};
 #[cfg(target_arch = "wasm32")]
 pub(crate) use canvas::{Context, Current};
 #[cfg(target_arch = "wasm32")]

@@ -101,7 +101,7 @@ impl<'a> Explainer<'a> {
     /// # Errors
     ///
     /// As [`Explainer::new`] and [`Explainer::pixel`].
-    pub fn step(
+    pub(crate) fn step(
         scene: &'a Scene,
         plan: &'a Plan,
         values: &'a [StepValues],

@@ -65,7 +65,7 @@ impl Facts {
     }
 
     /// Returns the facts of a square of one colour.
-    pub fn constant(color: [f32; 4]) -> Self {
+    pub(crate) fn constant(color: [f32; 4]) -> Self {
         Self { constant_color: Some(color), ..Self::plain() }
     }
 }

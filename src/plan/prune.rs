@@ -13,7 +13,8 @@ mod objects;
 mod rule;
 mod shaders;
 
-pub use rule::{Omission, Pruning, Rule};
+pub(crate) use rule::Omission;
+pub use rule::{Pruning, Rule};
 
 use super::{Draw, Geometry, Plan, Step};
 use crate::scene::Scene;

@@ -75,7 +75,7 @@ impl Format {
 
 impl Target {
     /// Returns the texture that holds a pass's picture, the first of the target's textures; `None` for the framebuffer.
-    pub fn picture(self) -> Option<TextureName> {
+    pub(crate) fn picture(self) -> Option<TextureName> {
         match self {
             Self::Framebuffer => None,
             Self::Textures(attachments) => attachments.colors.first().map(|color| color.name),

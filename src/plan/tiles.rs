@@ -36,23 +36,23 @@ const STEP_PX: u32 = 48;
 
 impl Tile {
     /// All in one piece.
-    pub fn whole(whole: Size) -> Self {
+    pub(crate) fn whole(whole: Size) -> Self {
         let all = Rectangle { x: 0, y: 0, width: whole.width, height: whole.height };
         Self { whole, drawn: all, kept: all, viewport: all }
     }
 
     /// Whether it is all.
-    pub fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         *self == Self::whole(self.whole)
     }
 
     /// The size of the drawn rectangle.
-    pub fn size(&self) -> Size {
+    pub(crate) fn size(&self) -> Size {
         Size { width: self.drawn.width, height: self.drawn.height }
     }
 
     /// Returns the part of a rectangle of the whole that lies in this tile, counted from the tile's own corner; `None` if empty.
-    pub fn part(&self, of: Rectangle) -> Option<Rectangle> {
+    pub(crate) fn part(&self, of: Rectangle) -> Option<Rectangle> {
         let common = of.within(self.drawn)?;
         Some(Rectangle { x: common.x - self.drawn.x, y: common.y - self.drawn.y, ..common })
     }
@@ -74,7 +74,7 @@ impl Tile {
     }
 
     /// Converts a uniform of the whole to this tile.
-    pub fn value(&self, value: Value) -> Value {
+    pub(crate) fn value(&self, value: Value) -> Value {
         match value {
             Value::TexelSize(_) if !self.is_whole() => Value::texel_size(self.size()),
             Value::PixelPlace([x, y]) => Value::PixelPlace([x - self.drawn.x as f32, y - self.drawn.y as f32]),

@@ -54,7 +54,7 @@ impl Look {
     }
 
     /// All names with commas between.
-    pub fn list() -> String {
+    pub(crate) fn list() -> String {
         LOOKS.map(|look| look.name).join(", ")
     }
 
@@ -74,7 +74,7 @@ impl Look {
     /// # Errors
     ///
     /// None in practice: a test reads them all.
-    pub fn preset(self) -> Result<Preset> {
+    pub(crate) fn preset(self) -> Result<Preset> {
         Preset::parse(&format!("look {}", self.name), self.text)
     }
 }

@@ -64,7 +64,7 @@ impl DrawingFile {
     /// # Errors
     ///
     /// Those of [`TextTarget`] and [`Target`].
-    pub fn write(self, output: &str, is_transparent: bool) -> Result<()> {
+    pub(crate) fn write(self, output: &str, is_transparent: bool) -> Result<()> {
         match self {
             Self::Bytes(bytes) => TextTarget::check(output)?.write_bytes(&bytes),
             Self::Picture(picture, note) => Target::check(output, is_transparent)?.write_with(&picture, note.as_ref()),
@@ -74,7 +74,7 @@ impl DrawingFile {
 
 impl DrawnLines {
     /// The paths that the drawing shows, with hidden ones if it shows them.
-    pub fn paths(&self) -> Vec<LinePath> {
+    pub(crate) fn paths(&self) -> Vec<LinePath> {
         let mut paths = chain(&self.lines.segments);
         let shows_hidden =
             |look: u32| self.lines.drawing(look, &self.resolved.contents.drawing).hidden != HiddenLines::None;

@@ -21,7 +21,7 @@ impl ModelCache {
     }
 
     /// For many jobs.
-    pub fn for_many() -> Self {
+    pub(crate) fn for_many() -> Self {
         Self::new(true)
     }
 
@@ -35,7 +35,7 @@ impl ModelCache {
 
     /// With another reader of models, and a function that receives remarks.
     #[must_use]
-    pub fn reading(self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
+    pub(crate) fn reading(self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
         Self { read, say, ..self }
     }
 

@@ -44,13 +44,13 @@ impl Session {
 
     /// With another reader of models, and a function that receives remarks.
     #[must_use]
-    pub fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
+    pub(crate) fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
         self.models = self.models.reading(read, say);
         self
     }
 
     /// Whether this way to OpenGL is open.
-    pub fn has(&self, backend: Backend) -> bool {
+    pub(crate) fn has(&self, backend: Backend) -> bool {
         self.renderers.iter().any(|(known, _)| *known == backend)
     }
 
@@ -64,7 +64,7 @@ impl Session {
     }
 
     /// Keeps an open context for the jobs to come.
-    pub fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
+    pub(crate) fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
         self.renderers.retain(|(known, _)| *known != backend);
         self.renderers.push((backend, renderer));
         let last = self.renderers.len() - 1;

@@ -12,7 +12,8 @@ mod settings;
 
 pub use choices::{CetCoordinate, CetFilter, CharcoalRecipe, ContrastOperator, Noise};
 pub use improvements::Improvements;
-pub use pictures::{CharcoalPictures, TextureSource};
+pub(crate) use pictures::CharcoalPictures;
+pub use pictures::TextureSource;
 
 use self::layout::Layout;
 use self::pictures::{CharcoalTextures, TextureSettings};

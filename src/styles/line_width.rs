@@ -25,7 +25,7 @@ const LARGEST_PERCENT: f64 = 10.0;
 
 impl LineWidth {
     /// Returns the width in pixels of a picture of this size.
-    pub fn pixels(self, picture: Size) -> u32 {
+    pub(crate) fn pixels(self, picture: Size) -> u32 {
         match self {
             Self::Pixels(pixels) => pixels,
             Self::Percent(percent) => {

@@ -148,7 +148,7 @@ macro_rules! styles {
             }
 
             /// Returns its exact lines; `None` for a style that draws in passes.
-            pub fn lines(&self) -> Option<LineStyle> {
+            pub(crate) fn lines(&self) -> Option<LineStyle> {
                 match self {
                     $(Self::$style(settings) => {
                         let draw: Draw<$settings> = $draw;

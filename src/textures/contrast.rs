@@ -105,7 +105,7 @@ impl ContrastTexture {
     /// # Errors
     ///
     /// As [`ContrastTexture::picture`].
-    pub fn grains(&self) -> Result<Grains> {
+    pub(crate) fn grains(&self) -> Result<Grains> {
         self.check()?;
         let mut numbers = Numbers::new(self.random, self.seed, "contrast");
         let Size { width, height } = self.size;

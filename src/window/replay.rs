@@ -17,7 +17,7 @@ use std::path::Path;
 /// A line of a recording.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Line {
+pub(crate) struct Line {
     /// The frame's number, from 0; by default the same as in the previous line.
     pub frame: Option<u64>,
     /// The event.
@@ -52,7 +52,7 @@ impl Replay {
     /// # Errors
     ///
     /// [`Error::Setting`] with the line that cannot be understood.
-    pub fn read(path: &Path) -> Result<Self> {
+    pub(crate) fn read(path: &Path) -> Result<Self> {
         let refused = |problem: String| Error::value("replay", path.display(), problem);
         let metadata = std::fs::metadata(path);
         let text = match metadata {
@@ -71,7 +71,7 @@ impl Replay {
     /// # Errors
     ///
     /// A sentence with the number of the line.
-    pub fn parse(text: &str) -> std::result::Result<Self, String> {
+    pub(crate) fn parse(text: &str) -> std::result::Result<Self, String> {
         let mut lines = Vec::new();
         let mut frame = 0;
         for (number, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
@@ -92,7 +92,7 @@ impl Replay {
     }
 
     /// The lines of a frame.
-    pub fn lines(&self, frame: u64) -> impl Iterator<Item = &Line> {
+    pub(crate) fn lines(&self, frame: u64) -> impl Iterator<Item = &Line> {
         self.lines.iter().filter(move |(number, _)| *number == frame).map(|(_, line)| line)
     }
 
@@ -102,7 +102,7 @@ impl Replay {
     }
 
     /// Whether it gives the size of the drawing area; otherwise the window decides.
-    pub fn has_sizes(&self) -> bool {
+    pub(crate) fn has_sizes(&self) -> bool {
         self.lines.iter().any(|(_, line)| matches!(line.event, Some(ViewerEvent::Resize(_))))
     }
 }

@@ -73,7 +73,7 @@ impl JobOptions {
     }
 
     /// The look that it names.
-    pub fn look(&self) -> Result<Option<Look>> {
+    pub(crate) fn look(&self) -> Result<Option<Look>> {
         let look = self.text("look").map(|name| (name, Look::of_name(name)));
         look.map(|(name, look)| look.map_err(|ParseError(problem)| Error::value("look", name, problem))).transpose()
     }

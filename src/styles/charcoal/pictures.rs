@@ -43,7 +43,7 @@ impl TextureSource {
     }
 
     /// Its file.
-    pub fn path(&self) -> Option<&Path> {
+    pub(crate) fn path(&self) -> Option<&Path> {
         match self {
             Self::Made => None,
             Self::File { path, .. } => Some(path),

@@ -73,7 +73,7 @@ impl Costs {
     }
 
     /// The time of a side's frame, milliseconds, if it has been measured.
-    pub fn frame_ms(&self, side: Side) -> Option<f64> {
+    pub(crate) fn frame_ms(&self, side: Side) -> Option<f64> {
         self.sides.iter().find(|cost| cost.side == side).map(|cost| cost.frame_ms)
     }
 
@@ -83,7 +83,7 @@ impl Costs {
     }
 
     /// Takes a picture's cost and starts to measure its lines.
-    pub fn take(&mut self, scene: Scene, costs: Vec<Cost>, measure: Option<LineMeasure>, reporter: Reporter) {
+    pub(crate) fn take(&mut self, scene: Scene, costs: Vec<Cost>, measure: Option<LineMeasure>, reporter: Reporter) {
         self.style_changed();
         let mut inks = Vec::new();
         for Cost { side, style, frame_ms, passes, has_lines, ink } in costs {
@@ -105,7 +105,7 @@ impl Costs {
     }
 
     /// Takes the measurements, unless the view has changed since.
-    pub fn measured(&mut self, number: u64, errors: Vec<(Side, LineScore)>) {
+    pub(crate) fn measured(&mut self, number: u64, errors: Vec<(Side, LineScore)>) {
         if number != self.number {
             return;
         }

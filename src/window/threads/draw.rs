@@ -102,7 +102,7 @@ impl Drawer {
     }
 
     /// The context's own description.
-    pub fn context(&self) -> &ContextInfo {
+    pub(crate) fn context(&self) -> &ContextInfo {
         self.renderer.context()
     }
 
@@ -116,7 +116,7 @@ impl Drawer {
     /// # Errors
     ///
     /// As [`Renderer::replace_shaders`].
-    pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
+    pub(crate) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
         (self.read_back, self.warmed) = (None, None);
         self.renderer.replace_shaders(shaders.clone())?;
         self.shaders = shaders;
@@ -210,7 +210,7 @@ impl Drawer {
     /// # Errors
     ///
     /// As [`Explanation::of`].
-    pub fn explain(&mut self, job: &PixelJob) -> Result<Explanation> {
+    pub(crate) fn explain(&mut self, job: &PixelJob) -> Result<Explanation> {
         let height = job.view.settings.size.height;
         let at = [job.pixel[0], height - 1 - job.pixel[1]];
         let is_known = self.read_back.as_ref().is_some_and(|known| known.job.view.is_same(&job.view) && known.has(at));

@@ -54,7 +54,7 @@ pub struct ExactLines {
 
 impl ExactLines {
     /// The last that were found.
-    pub fn found(&self) -> Option<&FoundLines> {
+    pub(crate) fn found(&self) -> Option<&FoundLines> {
         self.found.as_ref()
     }
 
@@ -78,7 +78,7 @@ impl ExactLines {
 
     /// Requests these lines, or none. `is_picture` means that they are shown alone, and that those of a previous view are useful
     /// too.
-    pub fn ask(&mut self, wanted: Option<Job>, is_picture: bool, reporter: &Reporter) {
+    pub(crate) fn ask(&mut self, wanted: Option<Job>, is_picture: bool, reporter: &Reporter) {
         let is_wanted = |job: &Job| wanted.as_ref().is_some_and(|wanted| wanted.is_same(job));
         if !self.refused.as_ref().is_some_and(|(job, _)| is_wanted(job)) {
             self.refused = None;
@@ -107,7 +107,7 @@ impl ExactLines {
     }
 
     /// Takes a thread's result.
-    pub fn take(&mut self, found: Result<FoundLines>) {
+    pub(crate) fn take(&mut self, found: Result<FoundLines>) {
         let Some((job, progress)) = self.finding.take() else { return };
         match found {
             Ok(found) => self.found = Some(found),
@@ -117,7 +117,7 @@ impl ExactLines {
     }
 
     /// Cancels the running search.
-    pub fn cancel(&self) {
+    pub(crate) fn cancel(&self) {
         if let Some((_, progress)) = &self.finding {
             progress.cancel();
         }

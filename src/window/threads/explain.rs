@@ -6,7 +6,7 @@ use crate::window::threads::job::Job;
 
 /// A pixel to explain.
 #[derive(Debug, Clone)]
-pub struct PixelJob {
+pub(crate) struct PixelJob {
     /// The view with the side's drawing alone.
     pub view: Job,
     /// Right and down from the upper left corner of its picture.
@@ -29,7 +29,7 @@ pub struct PixelAnswer {
 
 impl PixelAnswer {
     /// The answer, or why there is none.
-    pub fn answer(&self) -> Option<&std::result::Result<Explanation, String>> {
+    pub(crate) fn answer(&self) -> Option<&std::result::Result<Explanation, String>> {
         self.answer.as_ref()
     }
 

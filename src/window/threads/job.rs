@@ -38,7 +38,7 @@ impl Job {
     /// # Errors
     ///
     /// As [`Orbit::settings`].
-    pub fn camera(&self) -> Result<CameraSettings> {
+    pub(crate) fn camera(&self) -> Result<CameraSettings> {
         self.orbit.settings(&self.scene, &self.settings)
     }
 
@@ -47,7 +47,7 @@ impl Job {
     /// # Errors
     ///
     /// As [`Scene::new`].
-    pub fn scene(&self) -> Result<Scene> {
+    pub(crate) fn scene(&self) -> Result<Scene> {
         let size = if self.is_coarse { coarse::size(self.settings.size) } else { self.settings.size };
         self.scene.seen_with(&SceneSettings { camera: self.camera()?, size, ..self.settings.clone() })
     }
@@ -78,7 +78,7 @@ impl Job {
     }
 
     /// Whether it would draw the same as another.
-    pub fn is_same(&self, other: &Self) -> bool {
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
         self.is_of_same_picture(other)
             && self.drawings == other.drawings
             && self.has_strokes == other.has_strokes
@@ -103,7 +103,7 @@ pub enum Lines {
 
 /// Lines that were found.
 #[derive(Debug)]
-pub struct FoundLines {
+pub(crate) struct FoundLines {
     /// The view, and the requests of its sides.
     pub job: Job,
     /// The lines of each of its drawings.
@@ -133,7 +133,7 @@ pub struct Drawing {
 
 /// The cost of a side's picture.
 #[derive(Debug)]
-pub struct Cost {
+pub(crate) struct Cost {
     /// The side.
     pub side: Side,
     /// The style's name.

@@ -7,10 +7,10 @@ use crate::scene::Scene;
 use crate::styles::Style;
 
 /// Draws a style's lines: how dark each pixel is.
-pub type DrawInk = fn(&mut Renderer, &Scene, &Style) -> Result<Option<Darkness>>;
+pub(crate) type DrawInk = fn(&mut Renderer, &Scene, &Style) -> Result<Option<Darkness>>;
 
 /// Scores several pictures of lines of one scene.
-pub type ScoreInk = fn(&Scene, Vec<Darkness>, &Progress) -> Result<Vec<LineScore>>;
+pub(crate) type ScoreInk = fn(&Scene, Vec<Darkness>, &Progress) -> Result<Vec<LineScore>>;
 
 /// How dark each pixel is, row by row from the top, 255 for black.
 pub type Darkness = Vec<u8>;

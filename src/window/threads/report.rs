@@ -15,7 +15,7 @@ use std::sync::mpsc::Sender;
 
 /// News from a thread.
 #[derive(Debug)]
-pub enum Report {
+pub(crate) enum Report {
     /// A drawing thread has something to draw with.
     Renderer(usize, Box<ContextInfo>),
     /// A thread has no renderer.
@@ -68,7 +68,7 @@ pub enum Report {
 
 /// Models that were read.
 #[derive(Debug)]
-pub struct LoadedModels {
+pub(crate) struct LoadedModels {
     /// As the user named them.
     pub models: Vec<String>,
     /// How they were read.
@@ -92,7 +92,7 @@ pub struct Stage {
 
 /// Sends the viewer reports and wakes it.
 #[derive(Clone)]
-pub struct Reporter {
+pub(crate) struct Reporter {
     sender: Sender<Report>,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
@@ -105,12 +105,12 @@ impl std::fmt::Debug for Reporter {
 
 impl Reporter {
     /// Sends reports here and calls `wake` after each.
-    pub fn new(sender: Sender<Report>, wake: impl Fn() + Send + Sync + 'static) -> Self {
+    pub(crate) fn new(sender: Sender<Report>, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { sender, wake: Arc::new(wake) }
     }
 
     /// Sends the report; a closed receiver is no error.
-    pub fn say(&self, report: Report) {
+    pub(crate) fn say(&self, report: Report) {
         if self.sender.send(report).is_ok() {
             (self.wake)();
         }

@@ -274,7 +274,7 @@ impl Viewer {
     }
 
     /// A side's picture, with the exact lines if it shows them.
-    pub fn picture(&self, side: Side) -> Option<&Picture> {
+    pub(crate) fn picture(&self, side: Side) -> Option<&Picture> {
         match self.lines.found().and_then(|found| found.of_side(side)) {
             Some((_, Lines::Alone(alone))) if self.state.lines_shown(side) == LinesShown::Alone => Some(alone),
             _ => self.drawing(side).map(|drawing| &drawing.picture),
@@ -282,7 +282,7 @@ impl Viewer {
     }
 
     /// A side's picture by its style, with the time it took.
-    pub fn drawing(&self, side: Side) -> Option<&Drawing> {
+    pub(crate) fn drawing(&self, side: Side) -> Option<&Drawing> {
         self.drawings.iter().find(|drawing| drawing.side == side)
     }
 
@@ -302,7 +302,7 @@ impl Viewer {
     }
 
     /// The drawing job of the state.
-    pub fn job(&self) -> Option<Job> {
+    pub(crate) fn job(&self) -> Option<Job> {
         let mut job = Job {
             scene: self.scene.clone()?,
             orbit: self.state.orbit.clone(),

@@ -28,7 +28,7 @@ const EDGE_CLASSES: &str = "edge-classes";
 
 impl Buffer {
     /// In the user's notation.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Show(show) => show.choice_name(),
             Self::EdgeClasses => EDGE_CLASSES,
@@ -36,7 +36,7 @@ impl Buffer {
     }
 
     /// The request that draws this buffer of another; the finished picture if its style lacks the buffer.
-    pub fn drawn(self, request: &Request) -> Request {
+    pub(crate) fn drawn(self, request: &Request) -> Request {
         let drawn = Request { show: Show::Final, ..request.clone() };
         match self {
             Self::EdgeClasses => Request { style: edge_classes(), exact_lines: false, ..drawn },

@@ -16,7 +16,7 @@ pub(in crate::window) const LINE_SETTINGS: [&str; 10] = [
 
 /// How a side shows exact lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LinesShown {
+pub(crate) enum LinesShown {
     /// No lines.
     None,
     /// They lie over the style's picture.

@@ -133,7 +133,7 @@ impl ViewerState {
     }
 
     /// The style a side shows.
-    pub fn style(&self, side: Side) -> &Style {
+    pub(crate) fn style(&self, side: Side) -> &Style {
         &self.requests[side as usize].style
     }
 
@@ -219,7 +219,7 @@ impl ViewerState {
     }
 
     /// The sides that are seen.
-    pub fn sides(&self) -> &'static [Side] {
+    pub(crate) fn sides(&self) -> &'static [Side] {
         match self.layout {
             Layout::Single => &[Side::Left],
             Layout::Split | Layout::Difference => &[Side::Left, Side::Right],
@@ -227,7 +227,7 @@ impl ViewerState {
     }
 
     /// Where the panes are.
-    pub fn panes(&self) -> Vec<Pane> {
+    pub(crate) fn panes(&self) -> Vec<Pane> {
         let Size { width, height } = self.area;
         match self.layout {
             Layout::Single => vec![Pane { content: Content::Picture(Side::Left), left: 0, size: self.area }],
@@ -266,7 +266,7 @@ impl ViewerState {
     }
 
     /// The models' files without their folders.
-    pub fn model_names(&self) -> Vec<String> {
+    pub(crate) fn model_names(&self) -> Vec<String> {
         let name = |model: &String| {
             let path = std::path::Path::new(model);
             path.file_name().map_or_else(|| model.clone(), |name| name.to_string_lossy().into_owned())
