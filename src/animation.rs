@@ -30,7 +30,7 @@ mod numbered;
 mod palette;
 mod quantize;
 
-pub(crate) use numbered::NumberedName;
+pub use numbered::NumberedName;
 
 use crate::clock::Instant;
 use crate::error::{Error, Result};

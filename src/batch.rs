@@ -25,8 +25,8 @@ mod output_path;
 mod slice;
 
 pub use entry::{Entry, Failure, Outcome};
-pub use job::Job;
-pub(crate) use job::{JobCommand, OUTPUTS};
+pub(crate) use job::OUTPUTS;
+pub use job::{Job, JobCommand};
 pub(crate) use journal::entries;
 pub use journal::{Journal, add_entries};
 pub use list::List;

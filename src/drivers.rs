@@ -19,7 +19,7 @@ mod known;
 
 use crate::error::Result;
 use crate::gl::context::{Context, each};
-pub use crate::gl::probe::Probe;
+pub(crate) use crate::gl::probe::Probe;
 use crate::gl::{Backend, ContextInfo};
 use crate::mesh::{LoadOptions, load};
 use crate::picture::Picture;

@@ -38,7 +38,7 @@ mod squares;
 mod targets;
 mod textures;
 
-pub use context::{Backend, ContextInfo, is_software};
+pub use context::{Attempt, Backend, ContextInfo, is_software};
 pub use faults::Fault;
 
 use crate::error::{Error, Result};

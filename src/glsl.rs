@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use std::collections::HashMap;
 use std::path::Path;
 
-pub(crate) mod es;
+pub mod es;
 
 /// A shader's path below `glsl/` and its text.
 pub(crate) type Source = (&'static str, &'static str);

@@ -14,7 +14,7 @@ use serde::Serialize;
 /// The effect of a key. The window and the page decide which side it affects and what follows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Action {
+pub enum Action {
     /// Turn the model to the right and down, shares of the picture's height.
     Turn([f64; 2]),
     /// Move it so.
@@ -190,7 +190,7 @@ const ROWS: &[Row] = &[
 ];
 
 /// Returns the lines of the sheet of keys: keys and their effects, either all of the window's or those that the page has.
-pub(crate) fn sheet(is_page: bool) -> impl Iterator<Item = (&'static str, String)> {
+pub fn sheet(is_page: bool) -> impl Iterator<Item = (&'static str, String)> {
     // Styles after the ninth have no key.
     let names: Vec<&str> = StyleName::ALL.iter().map(|(name, _)| *name).take(9).collect();
     let rows = ROWS.iter().filter(move |row| row.is_on_page || !is_page);
@@ -198,13 +198,13 @@ pub(crate) fn sheet(is_page: bool) -> impl Iterator<Item = (&'static str, String
 }
 
 /// Returns the window's sheet text for the key of an action, or `None` if it has no key.
-pub(crate) fn about(action: Action) -> Option<String> {
+pub fn about(action: Action) -> Option<String> {
     let row = ROWS.iter().find(|row| row.bindings.iter().any(|(.., does)| *does == action))?;
     Some(format!("{}: {}", row.keys, row.what))
 }
 
 /// Returns the [`Action`] of the key whose name satisfies `is_key`, or `None`. Shift counts where it has a meaning with the key.
-pub(crate) fn action(is_key: impl Fn(&str) -> bool, has_shift: bool, has_ctrl: bool) -> Option<Action> {
+pub fn action(is_key: impl Fn(&str) -> bool, has_shift: bool, has_ctrl: bool) -> Option<Action> {
     let bindings = || ROWS.iter().flat_map(|row| row.bindings).filter(|(key, ..)| is_key(key));
     let of = |with: With| bindings().find(|binding| binding.1 == with).map(|(.., action)| *action);
     match (has_ctrl, has_shift) {

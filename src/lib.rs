@@ -142,8 +142,7 @@ pub mod renderer;
 #[doc(hidden)]
 pub mod pixel;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
-#[doc(hidden)]
-pub mod drivers;
+mod drivers;
 #[doc(hidden)]
 pub mod orbit;
 #[doc(hidden)]

@@ -11,5 +11,5 @@
 //! # }
 //! ```
 
-pub use crate::builtin::{BUILTINS, Builtin, builtin, load, load_watched};
+pub use crate::builtin::{BUILTINS, Builtin, NamedBuiltin, builtin, load, load_watched};
 pub use tinta_geometry::mesh::*;

@@ -49,7 +49,7 @@ impl Default for Orbit {
 
 impl Orbit {
     /// Turns by a drag to the right and down, shares of the picture's height: the surface follows the pointer.
-    pub(crate) fn turn(&mut self, right: f64, down: f64) {
+    pub fn turn(&mut self, right: f64, down: f64) {
         let View { azimuth_degrees, elevation_degrees } = self.view;
         self.view = View {
             azimuth_degrees: rounded(wrapped(azimuth_degrees - right * DEGREES_A_HEIGHT), ANGLE_STEP),
@@ -58,18 +58,18 @@ impl Orbit {
     }
 
     /// Moves the scene with a drag to the right and down, shares of the picture's height.
-    pub(crate) fn move_by(&mut self, right: f64, down: f64) {
+    pub fn move_by(&mut self, right: f64, down: f64) {
         let limited = |value: f64| value.clamp(-FARTHEST_PAN, FARTHEST_PAN);
         self.pan = [limited(self.pan[0] - right / self.zoom), limited(self.pan[1] + down / self.zoom)];
     }
 
     /// Brings the scene nearer by this factor, or farther below 1.
-    pub(crate) fn zoom_by(&mut self, factor: f64) {
+    pub fn zoom_by(&mut self, factor: f64) {
         self.zoom = (self.zoom * factor).clamp(ZOOM[0], ZOOM[1]);
     }
 
     /// Looks from here at the whole scene.
-    pub(crate) fn look_from(&mut self, view: View) {
+    pub fn look_from(&mut self, view: View) {
         *self = Self { view, parallel: self.parallel, fov_y_degrees: self.fov_y_degrees, ..Self::default() };
     }
 
@@ -89,7 +89,7 @@ impl Orbit {
     /// # Errors
     ///
     /// [`crate::Error::Setting`] where the fitted camera is refused.
-    pub(crate) fn settings(&self, scene: &Scene, settings: &SceneSettings) -> Result<CameraSettings> {
+    pub fn settings(&self, scene: &Scene, settings: &SceneSettings) -> Result<CameraSettings> {
         let fitted = self.fitted(&settings.camera);
         if self.is_fitted() {
             return Ok(fitted);

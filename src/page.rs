@@ -12,7 +12,7 @@ use crate::markup::escaped;
 const STYLE_SHEET: &str = include_str!("page.css");
 
 /// Options that the page for browsers does not have: those for files that it cannot name, and those that the hand sets there.
-pub(crate) const NOT_OF_BROWSERS: [&str; 6] = ["allow-external", "eye", "height", "size", "target", "up"];
+pub const NOT_OF_BROWSERS: [&str; 6] = ["allow-external", "eye", "height", "size", "target", "up"];
 
 /// Where a page's pictures are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

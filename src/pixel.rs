@@ -44,6 +44,5 @@ pub use listing::{LineState, ListedLine};
 pub use recomputation::{Filtering, Recomputation};
 pub use tinta_glsl::{Base, Comparison, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
 pub use tolerance::LineTolerance;
-pub(crate) use verdict::AgainstLines;
 pub(crate) use verdict::against_lines;
-pub use verdict::{Flip, INK_FROM, Verdict, flips};
+pub use verdict::{AgainstLines, Flip, INK_FROM, Verdict, flips};

@@ -32,16 +32,13 @@ mod target;
 mod tiles;
 
 pub use check::Flaw;
-pub(crate) use facts::WhereEven;
-pub use facts::{Facts, Shorter};
+pub use facts::{Facts, Shorter, WhereEven};
 pub(crate) use program::TOOTH;
-pub(crate) use program::{PlanPicture, Sampling};
-pub use program::{Program, Texture, Uniform, Value};
+pub use program::{PlanPicture, Program, Sampling, Texture, Uniform, Value};
 pub use submission::Submission;
 pub(crate) use target::DEPTH_COPY;
 pub use target::{Attachment, Attachments, Format, SettingValue, Target, TextureName};
-pub(crate) use tiles::Tile;
-pub use tiles::TileLimits;
+pub use tiles::{Tile, TileLimits};
 
 use crate::culling::DrawnFaces;
 use crate::mesh::VertexArrays;
@@ -254,7 +251,7 @@ pub struct EdgeRun {
 
 impl EdgeRun {
     /// Returns the vertices that its ends index, given the object's arrays.
-    pub(crate) fn vertices<'a>(&'a self, arrays: &'a VertexArrays) -> &'a [[f32; 6]] {
+    pub fn vertices<'a>(&'a self, arrays: &'a VertexArrays) -> &'a [[f32; 6]] {
         self.own_vertices.as_ref().unwrap_or(&arrays.vertices)
     }
 }

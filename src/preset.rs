@@ -36,7 +36,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 pub(crate) const LARGEST_BYTES: u64 = 64 << 10;
 
 /// How the names of presets that ship begin.
-pub(crate) const PREFIX: &str = "paper:";
+pub const PREFIX: &str = "paper:";
 
 /// A preset: the options it sets, with their lines.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -128,7 +128,7 @@ impl Preset {
     }
 
     /// Options from another source; `name` is its name in errors.
-    pub(crate) fn of_options(name: &str, options: Options) -> Self {
+    pub fn of_options(name: &str, options: Options) -> Self {
         Self { name: name.to_owned(), options, lines: BTreeMap::new() }
     }
 

@@ -119,7 +119,7 @@ impl FileRecord {
     }
 
     /// The record of bytes already read from `path`.
-    pub(crate) fn of_bytes(path: &str, bytes: &[u8]) -> Self {
+    pub fn of_bytes(path: &str, bytes: &[u8]) -> Self {
         let sha256 = in_hexadecimal(Sha256::digest(bytes).as_slice());
         Self { path: path.to_owned(), bytes: bytes.len() as u64, sha256 }
     }

@@ -13,8 +13,7 @@ mod lines;
 mod regions;
 
 pub use camera::CameraRecord;
-pub use lines::drawing_json;
-pub(crate) use lines::{LineCounts, LinesMade};
+pub use lines::{LineCounts, LinesMade, drawing_json};
 pub(crate) use regions::px_per_unit;
 pub use regions::regions_json;
 
@@ -29,7 +28,7 @@ use serde::Serialize;
 
 /// A drawing's record: enough to repeat it and to compare its cost.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Record {
+pub struct Record {
     /// tinta's version.
     pub version: &'static str,
     /// All models together, with copies counted once; their paths with commas between them.
@@ -65,7 +64,7 @@ pub(crate) struct Record {
 /// The settings and times of a drawing.
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
-pub(crate) enum DrawingFacts {
+pub enum DrawingFacts {
     /// In passes, by OpenGL.
     Picture(Box<PictureMade>),
     /// As exact lines.
@@ -74,7 +73,7 @@ pub(crate) enum DrawingFacts {
 
 /// The settings and times of a picture.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct PictureMade {
+pub struct PictureMade {
     /// The picture of the style.
     pub show: Show,
     /// The colour of surfaces without one, or of all.

@@ -32,7 +32,7 @@ use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
 use crate::scene::{ObjectIdentity, Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use crate::values::Rectangle;
-pub(crate) use drawer::StepValues;
+pub use drawer::StepValues;
 use drawer::{Assembly, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -116,7 +116,7 @@ impl Renderer {
     ///
     /// [`Error::NoContext`] if the browser has no WebGL or lacks a needed part of it.
     #[cfg(target_arch = "wasm32")]
-    pub(crate) fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self> {
+    pub fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self> {
         Ok(Self::with(Backend::Auto, None, Context::on_canvas(canvas)?))
     }
 

@@ -30,8 +30,7 @@ mod resolve;
 mod session;
 
 pub use around::{Around, LINES_AT_ONCE_MS};
-pub use draw::Times;
-pub(crate) use draw::{DrawnPicture, ReadModels};
+pub use draw::{DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::WantedLines;
@@ -412,7 +411,7 @@ impl Request {
     }
 
     /// Whether the picture has no background.
-    pub(crate) fn is_transparent(&self) -> bool {
+    pub fn is_transparent(&self) -> bool {
         self.scene.background == crate::scene::Background::Transparent
     }
 

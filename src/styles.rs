@@ -55,7 +55,8 @@ pub use back_faces::BackFaces;
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
 pub use charcoal::{
-    CetCoordinate, CetFilter, Charcoal, CharcoalRecipe, ContrastOperator, Improvements, Noise, TextureSource,
+    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, CharcoalRecipe, ContrastOperator, Improvements, Noise,
+    TextureSource,
 };
 pub use coarse::coarse;
 pub use contents::{Below, Contents, ViewAreas};
@@ -71,8 +72,7 @@ pub use map::{MapEncoding, MapTarget};
 pub use mrt::Mrt;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
-pub(crate) use row::StyleInfo;
-pub use row::{Mark, Origin, Outline};
+pub use row::{Mark, Origin, Outline, StyleInfo};
 pub use show::Show;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};

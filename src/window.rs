@@ -29,11 +29,12 @@ mod values;
 mod widgets;
 
 pub use crate::orbit::Orbit;
-pub(crate) use app::WindowOptions;
-pub use app::open;
-pub(crate) use replay::Replay;
-pub use threads::cost::{Point, SideCost};
+pub use app::{WindowOptions, open};
+pub use player::PlayedRecord;
+pub use replay::Replay;
+pub use threads::cost::{Costs, Point, SideCost};
 pub use threads::draw::Drawer;
+pub use threads::exact::ExactLines;
 pub use threads::job::{Drawing, Job, Lines};
 pub use threads::line_measure::{Darkness, LineMeasure, LineScore};
 pub use threads::report::Stage;
@@ -41,5 +42,5 @@ pub use threads::viewer::{Viewer, ViewerOptions};
 pub use values::buffer::{Buffer, buffers};
 #[cfg(feature = "cli")]
 pub(crate) use values::controls::SCENE_SETTINGS;
-pub use values::event::{Layout, Side, ViewerEvent};
+pub use values::event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use values::state::{Content, Pane, ViewerState};

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// A name whose file name has an open number.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct NumberedName {
+pub struct NumberedName {
     before: String,
     digits: usize,
     after: String,
@@ -16,7 +16,7 @@ impl NumberedName {
     /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture or a drawing; `None` without one.
     ///
     /// Other per cent signs, and those in folder names, stay unchanged.
-    pub(crate) fn parse(name: &str) -> Option<Self> {
+    pub fn parse(name: &str) -> Option<Self> {
         let file_name = Path::new(name).file_name()?.to_str()?;
         let is_drawing = DrawingFormat::of_name(name).is_some_and(|format| !format.is_of_lines_alone);
         if PictureFormat::of(Path::new(name)).is_none() && !is_drawing {
@@ -36,7 +36,7 @@ impl NumberedName {
     }
 
     /// Returns the name with this number.
-    pub(crate) fn with(&self, number: u32) -> String {
+    pub fn with(&self, number: u32) -> String {
         format!("{}{number:0digits$}{}", self.before, self.after, digits = self.digits)
     }
 
@@ -48,7 +48,7 @@ impl NumberedName {
     }
 
     /// Returns the text before the number, its least count of digits, and the text after it.
-    pub(crate) fn parts(&self) -> (&str, usize, &str) {
+    pub fn parts(&self) -> (&str, usize, &str) {
         (&self.before, self.digits, &self.after)
     }
 }

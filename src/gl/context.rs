@@ -34,8 +34,7 @@ mod wgl;
 #[cfg(feature = "window")]
 pub(crate) mod window;
 
-pub(crate) use backend::Attempt;
-pub use backend::{Backend, Outcome};
+pub use backend::{Attempt, Backend, Outcome};
 #[cfg(target_arch = "wasm32")]
 pub(crate) use canvas::{Context, Current};
 #[cfg(target_arch = "wasm32")]

@@ -25,7 +25,7 @@ use tinta_glsl::tokens::{Kind, Token, is_whole, tokens};
 
 /// The stage of a shader in its program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Stage {
+pub enum Stage {
     /// The vertex shader.
     Vertex,
     /// A fragment shader.
@@ -34,14 +34,14 @@ pub(crate) enum Stage {
 
 impl Stage {
     /// Returns the stage of the shader with this path.
-    pub(crate) fn of(path: &str) -> Self {
+    pub fn of(path: &str) -> Self {
         if path.ends_with(".vert") { Self::Vertex } else { Self::Fragment }
     }
 }
 
 /// A piece of a shader.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Piece {
+pub struct Piece {
     /// The original text in the shader.
     pub original: String,
     /// The rewritten text; equal to the original if no change was needed.
@@ -50,7 +50,7 @@ pub(crate) struct Piece {
 
 impl Piece {
     /// Whether the piece was changed.
-    pub(crate) fn is_changed(&self) -> bool {
+    pub fn is_changed(&self) -> bool {
         self.original != self.text
     }
 }
@@ -98,7 +98,7 @@ const LONGEST_LOOP: u32 = 1024;
 /// # Errors
 ///
 /// A sentence that names the part this language cannot express.
-pub(crate) fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
+pub fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
     let tokens = tokens(text);
     let mut texts = rewritten(stage, &tokens)?;
     let head = head(stage, &words(&tokens));
@@ -131,7 +131,7 @@ pub(crate) fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String
 /// # Errors
 ///
 /// As [`transcribed`], and for two different declarations of one name.
-pub(crate) fn linked(stage: Stage, texts: &[&str]) -> Result<String, String> {
+pub fn linked(stage: Stage, texts: &[&str]) -> Result<String, String> {
     let all: Vec<Vec<Token<'_>>> = texts.iter().map(|text| tokens(text)).collect();
     let words: HashSet<&str> = all.iter().flat_map(|tokens| words(tokens)).collect();
     let mut out = head(stage, &words);

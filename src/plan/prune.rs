@@ -13,8 +13,7 @@ mod objects;
 mod rule;
 mod shaders;
 
-pub(crate) use rule::Omission;
-pub use rule::{Pruning, Rule};
+pub use rule::{Omission, Pruning, Rule};
 
 use super::{Draw, Geometry, Plan, Step};
 use crate::scene::Scene;

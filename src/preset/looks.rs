@@ -74,7 +74,7 @@ impl Look {
     /// # Errors
     ///
     /// None in practice: a test reads them all.
-    pub(crate) fn preset(self) -> Result<Preset> {
+    pub fn preset(self) -> Result<Preset> {
         Preset::parse(&format!("look {}", self.name), self.text)
     }
 }

@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 /// The settings and times of exact lines.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct LinesMade {
+pub struct LinesMade {
     /// Number of edges in each class; an edge counts in its first class.
     pub edges: ClassCounts,
     /// Places along smooth silhouettes where visibility changes; absent with other silhouettes.
@@ -29,7 +29,7 @@ pub(crate) struct LinesMade {
 
 /// The number of pieces and paths.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-pub(crate) struct LineCounts {
+pub struct LineCounts {
     /// Pieces seen.
     pub visible_segments: usize,
     /// Pieces hidden.
@@ -42,7 +42,7 @@ pub(crate) struct LineCounts {
 
 impl LineCounts {
     /// Counts pieces and the paths made of them.
-    pub(crate) fn new(lines: &VisibleLines, paths: &[LinePath]) -> Self {
+    pub fn new(lines: &VisibleLines, paths: &[LinePath]) -> Self {
         let visible_segments = lines.segments.iter().filter(|segment| segment.is_visible).count();
         let visible_paths = paths.iter().filter(|path| path.is_visible).count();
         Self {

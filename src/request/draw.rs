@@ -93,7 +93,7 @@ impl Request {
     /// # Errors
     ///
     /// Those of reading, and of the settings with this scene; [`Error::Cancelled`] where `progress` was.
-    pub(crate) fn lines(&self, session: &Session, wanted: WantedLines, progress: &Progress) -> Result<DrawnLines> {
+    pub fn lines(&self, session: &Session, wanted: WantedLines, progress: &Progress) -> Result<DrawnLines> {
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
         let drawn = self.resolve(meshes, true)?.drawn_lines(wanted, progress)?;
         Ok(DrawnLines { files, load_ms, ..drawn })
@@ -128,7 +128,7 @@ impl Request {
     /// # Errors
     ///
     /// [`Error::Setting`] for a folder without shaders, and those of `glsl::check_folder`.
-    pub(crate) fn shaders(&self) -> Result<HashMap<String, String>> {
+    pub fn shaders(&self) -> Result<HashMap<String, String>> {
         let Some(folder) = &self.glsl else { return Ok(HashMap::new()) };
         glsl::check_folder(folder)?;
         let shaders = glsl::in_folder(Path::new(folder));

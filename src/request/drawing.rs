@@ -64,7 +64,7 @@ impl DrawingFile {
     /// # Errors
     ///
     /// Those of [`TextTarget`] and [`Target`].
-    pub(crate) fn write(self, output: &str, is_transparent: bool) -> Result<()> {
+    pub fn write(self, output: &str, is_transparent: bool) -> Result<()> {
         match self {
             Self::Bytes(bytes) => TextTarget::check(output)?.write_bytes(&bytes),
             Self::Picture(picture, note) => Target::check(output, is_transparent)?.write_with(&picture, note.as_ref()),

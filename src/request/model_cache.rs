@@ -35,7 +35,7 @@ impl ModelCache {
 
     /// With another reader of models, and a function that receives remarks.
     #[must_use]
-    pub(crate) fn reading(self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
+    pub fn reading(self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
         Self { read, say, ..self }
     }
 

@@ -44,7 +44,7 @@ impl Session {
 
     /// With another reader of models, and a function that receives remarks.
     #[must_use]
-    pub(crate) fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
+    pub fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<LoadedModel>, say: fn(&str)) -> Self {
         self.models = self.models.reading(read, say);
         self
     }
@@ -64,7 +64,7 @@ impl Session {
     }
 
     /// Keeps an open context for the jobs to come.
-    pub(crate) fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
+    pub fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
         self.renderers.retain(|(known, _)| *known != backend);
         self.renderers.push((backend, renderer));
         let last = self.renderers.len() - 1;

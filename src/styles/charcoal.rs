@@ -12,8 +12,7 @@ mod settings;
 
 pub use choices::{CetCoordinate, CetFilter, CharcoalRecipe, ContrastOperator, Noise};
 pub use improvements::Improvements;
-pub(crate) use pictures::CharcoalPictures;
-pub use pictures::TextureSource;
+pub use pictures::{CharcoalPictures, TextureSource};
 
 use self::layout::Layout;
 use self::pictures::{CharcoalTextures, TextureSettings};

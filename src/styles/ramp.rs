@@ -40,7 +40,7 @@ impl Ramp {
     /// # Errors
     ///
     /// [`crate::Error::File`] when it cannot be read.
-    pub(crate) fn read(path: &Path) -> Result<Self> {
+    pub fn read(path: &Path) -> Result<Self> {
         Ok(Self::of(Picture::read(path)?, path))
     }
 

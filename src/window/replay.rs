@@ -52,7 +52,7 @@ impl Replay {
     /// # Errors
     ///
     /// [`Error::Setting`] with the line that cannot be understood.
-    pub(crate) fn read(path: &Path) -> Result<Self> {
+    pub fn read(path: &Path) -> Result<Self> {
         let refused = |problem: String| Error::value("replay", path.display(), problem);
         let metadata = std::fs::metadata(path);
         let text = match metadata {
@@ -71,7 +71,7 @@ impl Replay {
     /// # Errors
     ///
     /// A sentence with the number of the line.
-    pub(crate) fn parse(text: &str) -> std::result::Result<Self, String> {
+    pub fn parse(text: &str) -> std::result::Result<Self, String> {
         let mut lines = Vec::new();
         let mut frame = 0;
         for (number, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {

@@ -15,7 +15,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// The next `count` records of `size` bytes each; `size` is not 0.
-    pub fn records(&mut self, count: usize, size: usize) -> Option<std::slice::ChunksExact<'a, u8>> {
+    pub(crate) fn records(&mut self, count: usize, size: usize) -> Option<std::slice::ChunksExact<'a, u8>> {
         Some(self.take(count.checked_mul(size)?)?.chunks_exact(size))
     }
 
@@ -41,12 +41,12 @@ impl<'a> Bytes<'a> {
         self.array().map(u32::from_le_bytes)
     }
 
-    pub fn f32(&mut self) -> Option<f32> {
+    pub(crate) fn f32(&mut self) -> Option<f32> {
         self.array().map(f32::from_le_bytes)
     }
 
     /// `N` floats.
-    pub fn floats<const N: usize>(&mut self) -> Option<[f32; N]> {
+    pub(crate) fn floats<const N: usize>(&mut self) -> Option<[f32; N]> {
         let mut floats = [0.0; N];
         for float in &mut floats {
             *float = self.f32()?;
@@ -55,7 +55,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// A text that ends with a zero byte.
-    pub fn text(&mut self) -> Option<String> {
+    pub(crate) fn text(&mut self) -> Option<String> {
         let length = self.0.iter().position(|byte| *byte == 0)?;
         let text = name(self.take(length)?);
         self.take(1)?;
@@ -64,7 +64,7 @@ impl<'a> Bytes<'a> {
 }
 
 /// A name in a field of fixed length: up to the first zero byte; invalid UTF-8 is replaced.
-pub fn name(field: &[u8]) -> String {
+pub(crate) fn name(field: &[u8]) -> String {
     let text = field.split(|byte| *byte == 0).next().unwrap_or_default();
     String::from_utf8_lossy(text).into_owned()
 }

@@ -225,7 +225,7 @@ pub const HEADING: &str = "Camera";
 
 impl CameraSettings {
     /// The camera's settings.
-    pub fn settings() -> Vec<Setting<Self>> {
+    pub(crate) fn settings() -> Vec<Setting<Self>> {
         let view = Setting::of(
             "view",
             "VIEW",
@@ -310,7 +310,7 @@ impl CameraSettings {
     ///
     /// `centre` and `radius` are the scene's, in world space. The error names the setting that makes the camera
     /// impossible.
-    pub fn fit(
+    pub(crate) fn fit(
         &self,
         centre: DVec3,
         radius: f64,

@@ -42,4 +42,5 @@ pub use edge_list::{EdgeList, Incidence};
 pub use mesh_edges::MeshEdges;
 pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};
-pub use smooth::{Shell, SmoothSurface};
+pub use smooth::Shell;
+pub(crate) use smooth::SmoothSurface;

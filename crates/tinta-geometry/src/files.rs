@@ -28,7 +28,7 @@ pub enum Failure {
 
 impl Failure {
     /// Returns the problem and its solution, without the file's name; `what` names such a file: "a model file".
-    pub fn problem(&self, what: &str) -> String {
+    pub(crate) fn problem(&self, what: &str) -> String {
         match self {
             Self::System(error) => match error.kind() {
                 ErrorKind::NotFound => "there is no such file; check the name".to_owned(),
@@ -83,7 +83,7 @@ pub fn read_within(path: &Path, within: Option<&Path>, limit: u64) -> Result<Vec
 }
 
 /// Whether a file's real path lies in the folder with real path `within`.
-pub fn is_within(path: &Path, within: &Path) -> bool {
+pub(crate) fn is_within(path: &Path, within: &Path) -> bool {
     path.canonicalize().is_ok_and(|real| real.starts_with(within))
 }
 

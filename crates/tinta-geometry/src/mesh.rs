@@ -19,7 +19,7 @@ mod build;
 mod coincident;
 mod curves;
 mod curves_of_soup;
-pub mod defects;
+pub(crate) mod defects;
 mod folder;
 mod format;
 mod frame;

@@ -252,7 +252,7 @@ impl<T: Clone + 'static> Setting<T> {
 
     /// Sets the texts that a shell and a panel offer.
     #[must_use]
-    pub fn offering(mut self, texts: &[&'static str]) -> Self {
+    pub(crate) fn offering(mut self, texts: &[&'static str]) -> Self {
         self.kind = Kind::Choice(texts.to_vec());
         self
     }
@@ -287,7 +287,7 @@ impl<T: Clone + 'static> Setting<T> {
 
     /// Allows its option several times, with the values joined by this text.
     #[must_use]
-    pub fn repeated(mut self, between: &'static str) -> Self {
+    pub(crate) fn repeated(mut self, between: &'static str) -> Self {
         self.between = Some(between);
         self
     }
@@ -368,7 +368,7 @@ impl<T: Clone + 'static> Setting<T> {
     }
 
     /// Returns this setting for a struct that may contain a `T`; without a `T` the struct does not have the setting.
-    pub fn within<S: Clone + 'static>(self, part: fn(&mut S) -> Option<&mut T>) -> Setting<S> {
+    pub(crate) fn within<S: Clone + 'static>(self, part: fn(&mut S) -> Option<&mut T>) -> Setting<S> {
         let (get, set) = (self.get, self.set);
         Setting {
             name: self.name,
@@ -391,7 +391,7 @@ impl<T: Clone + 'static> Setting<T> {
     }
 
     /// Returns the present text for one of an earlier version; any other text is unchanged.
-    pub fn present<'t>(&self, text: &'t str) -> &'t str {
+    pub(crate) fn present<'t>(&self, text: &'t str) -> &'t str {
         self.former.iter().find(|(former, _)| *former == text).map_or(text, |(_, present)| present)
     }
 

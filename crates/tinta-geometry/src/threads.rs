@@ -24,7 +24,7 @@ pub(crate) fn threads_for_items(count: usize) -> usize {
 }
 
 /// Cuts `0..count` into at most `pieces` ranges of about equal length.
-pub fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
+pub(crate) fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
     let length = count.div_ceil(pieces.max(1)).max(1);
     (0..count).step_by(length).map(|start| start..(start + length).min(count)).collect()
 }
@@ -32,7 +32,12 @@ pub fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
 /// Fills a list with `value` of each index; each thread writes its own piece in place.
 ///
 /// `blank` is the value of zeroed memory: the system then provides the list's pages at the first write.
-pub fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub(crate) fn filled<T: Copy + Send>(
+    count: usize,
+    threads: usize,
+    blank: T,
+    value: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
     let mut list = vec![blank; count];
     each_piece(&mut list, threads, threads, |start, places| {
         places.iter_mut().enumerate().for_each(|(index, place)| *place = value(start + index));
@@ -41,7 +46,7 @@ pub fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: imp
 }
 
 /// Sorts a list of distinct elements, one piece per thread.
-pub fn sort_by<T: Send>(list: &mut [T], threads: usize, order: impl Fn(&T, &T) -> std::cmp::Ordering + Sync) {
+pub(crate) fn sort_by<T: Send>(list: &mut [T], threads: usize, order: impl Fn(&T, &T) -> std::cmp::Ordering + Sync) {
     each_piece(list, threads, threads, |_, piece| piece.sort_unstable_by(&order));
     if threads > 1 {
         // The stable sort finds ordered runs and merges them.
@@ -113,7 +118,7 @@ pub(crate) fn in_parallel<T: Send>(
 /// Concatenates the results of `work` for each piece of `0..count`, `each` items per index; `None` if any piece returns `None`.
 ///
 /// Each thread writes a separate list, so the system provides their pages in parallel; the first has room for all.
-pub fn listed<T: Send>(
+pub(crate) fn listed<T: Send>(
     count: usize,
     each: usize,
     threads: usize,

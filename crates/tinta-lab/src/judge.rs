@@ -33,7 +33,7 @@ mod ink_color;
 mod matching;
 mod thin;
 
-pub(crate) use doubt::Doubt;
+pub use doubt::Doubt;
 pub use entry::Entry;
 pub use fit::Fit;
 pub use ink_color::InkColor;

@@ -31,14 +31,14 @@ mod tone_borders;
 mod tones;
 
 pub use conditions::Conditions;
-pub(crate) use drawn::{line_options, measure_lines};
+pub use drawn::{line_options, measure_lines};
 pub(crate) use error_picture::error_picture;
 pub(crate) use frames::{FrameTimes, quartiles};
-pub use ink::{INK_FROM, Ink, Verdict};
+pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 pub(crate) use reference::samples_of;
 pub use reference::{Reference, Sample};
 pub use row::{Against, LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
+pub use run::frames_a_turn;
 pub(crate) use run::shading_of;
-pub use run::{MeasureSettings, MeasuredStyle, Subject, measure, turns};
-pub(crate) use run::{MeasureStep, Measurement, frames_a_turn};
+pub use run::{MeasureSettings, MeasureStep, MeasuredStyle, Measurement, Subject, measure, turns};
 pub use tones::ReferenceLight;

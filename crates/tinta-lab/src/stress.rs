@@ -29,10 +29,9 @@ mod table;
 mod variants;
 mod written;
 
-pub(crate) use cases::Study;
-pub use cases::{Content, Drawing, Group, Work, cases};
+pub use cases::{Case, Check, Content, Demand, Drawing, Group, Study, Work, cases};
 pub use jitter::Flips;
-pub use run::{Row, StressSettings, Summary, run};
+pub use run::{MissingBackend, Row, StressSettings, Summary, run};
 pub use shapes::Shape;
-pub(crate) use variants::Variant;
-pub(crate) use written::WrittenShape;
+pub use variants::Variant;
+pub use written::WrittenShape;

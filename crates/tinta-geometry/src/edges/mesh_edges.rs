@@ -102,7 +102,7 @@ impl MeshEdges {
     }
 
     /// Returns the smooth surface that the faces approximate, sharp at creases of this angle; keeps the latest one.
-    pub fn smooth(&self, crease_angle: CreaseAngle) -> Arc<SmoothSurface> {
+    pub(crate) fn smooth(&self, crease_angle: CreaseAngle) -> Arc<SmoothSurface> {
         let mut kept = self.smooth.lock().unwrap_or_else(PoisonError::into_inner);
         match &*kept {
             Some(smooth) if smooth.crease_angle == crease_angle => smooth.clone(),

@@ -16,7 +16,7 @@ use glam::DVec3;
 
 /// Normals of a mesh as a smooth surface between its sharp edges.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SmoothSurface {
+pub(crate) struct SmoothSurface {
     /// The angle above which edges are sharp.
     pub crease_angle: CreaseAngle,
     /// Unit normals; zero where faces around a position cancel out or have no area.
@@ -55,7 +55,7 @@ const NO_VOLUME: f64 = 1e-9;
 
 impl SmoothSurface {
     /// Computes the normals; `edges` is the mesh's own list.
-    pub fn new(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle) -> Self {
+    pub(crate) fn new(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle) -> Self {
         let classes = Classes::new(mesh, edges, crease_angle, ClassSet::of(&[Class::Crease]));
         let mut is_sharp: Vec<bool> =
             edges.incidence().iter().map(|incidence| *incidence != Incidence::Inner).collect();

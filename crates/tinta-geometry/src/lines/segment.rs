@@ -46,7 +46,7 @@ impl LineSegment {
     }
 
     /// The layer that draws it.
-    pub fn layer(&self) -> Layer {
+    pub(crate) fn layer(&self) -> Layer {
         Layer::of(self.class, self.is_visible, self.is_outline)
     }
 }

@@ -12,14 +12,14 @@ use tinta::styles::Ramp;
 
 /// Draws panels; reads each built-in model once, and again where its normals are made by another rule.
 #[derive(Debug, Default)]
-pub(crate) struct Artist {
+pub struct Artist {
     builtin: HashMap<(&'static str, Normals), Arc<Mesh>>,
     textured: Option<Arc<Mesh>>,
 }
 
 impl Artist {
     /// An artist who has this model for the panels that need a texture.
-    pub(crate) fn new(textured: Option<Arc<Mesh>>) -> Self {
+    pub fn new(textured: Option<Arc<Mesh>>) -> Self {
         Self { textured, ..Self::default() }
     }
 
@@ -28,7 +28,7 @@ impl Artist {
     /// # Errors
     ///
     /// Those of [`Renderer::draw`]; [`tinta::Error::Setting`] for a model without a texture.
-    pub(crate) fn draw(&mut self, renderer: &mut Renderer, panel: &Panel, size: Size) -> Result<Option<Picture>> {
+    pub fn draw(&mut self, renderer: &mut Renderer, panel: &Panel, size: Size) -> Result<Option<Picture>> {
         match &panel.drawing {
             Drawing::Grains(texture) => texture.picture().map(Some),
             Drawing::Ramp => Ok(Some(Picture::clone(&Ramp::default().picture))),

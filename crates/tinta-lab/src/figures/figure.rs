@@ -19,10 +19,10 @@ pub enum Text {
 
 impl Text {
     /// All three, in the page's order.
-    pub(crate) const ALL: [Self; 3] = [Self::Evangelista, Self::Valente, Self::Dachsbacher];
+    pub const ALL: [Self; 3] = [Self::Evangelista, Self::Valente, Self::Dachsbacher];
 
     /// Authors and year, as a heading.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Evangelista => "Evangelista et al. 2005",
             Self::Valente => "Valente 2007",
@@ -31,7 +31,7 @@ impl Text {
     }
 
     /// The text's own title.
-    pub(crate) fn title(self) -> &'static str {
+    pub fn title(self) -> &'static str {
         match self {
             Self::Evangelista => {
                 "Renderização de cenas tridimensionais não-fotorealistas explorando hardware programável"
@@ -168,7 +168,7 @@ impl Model {
 }
 
 /// Why panels that need a texture are left out.
-pub(crate) const NO_TEXTURED_MODEL: &str =
+pub const NO_TEXTURED_MODEL: &str =
     "it shows a game's character with its own texture; name one with --model FILE, or builtin:soldier";
 
 /// A panel of a built-in model in the view of `shot`.

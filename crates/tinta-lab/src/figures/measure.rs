@@ -41,7 +41,7 @@ pub enum Turn {
 }
 
 /// About how many triangles a turn of [`Turn::Scenes`] draws, over all its frames: figure 13's scenes dominate.
-pub(crate) fn triangles_a_turn(how: &HowToMeasure) -> usize {
+pub fn triangles_a_turn(how: &HowToMeasure) -> usize {
     TRIANGLES.into_iter().take(how.scenes).sum::<usize>() * CURVES.len() * 2
 }
 

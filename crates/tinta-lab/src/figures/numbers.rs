@@ -24,7 +24,7 @@ pub struct Article {
 }
 
 /// The article's numbers; those of the shaders are in [`super::SHADERS`].
-pub(crate) const ARTICLE: Article = Article {
+pub const ARTICLE: Article = Article {
     device: "GeForce FX 5200, processor of 1 GHz",
     size: Size { width: 512, height: 512 },
     triangles: [3_039, 122_646],
@@ -141,7 +141,7 @@ impl Numbers {
     }
 
     /// The frames of these tones and passes, by triangles.
-    pub(crate) fn curve(&self, tones: u8, passes: u8) -> impl Iterator<Item = &FrameRow> {
+    pub fn curve(&self, tones: u8, passes: u8) -> impl Iterator<Item = &FrameRow> {
         self.frames.iter().filter(move |row| row.tones == tones && row.passes == passes)
     }
 }
@@ -161,7 +161,7 @@ pub struct Host {
 
 impl Host {
     /// The machine this runs on.
-    pub(crate) fn new(context: &ContextInfo) -> Self {
+    pub fn new(context: &ContextInfo) -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let (renderer, version) = (context.renderer.clone(), context.version.clone());
         Self { is_software: context.is_software(), renderer, version, threads }

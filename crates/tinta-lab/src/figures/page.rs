@@ -9,7 +9,7 @@ mod pictures;
 
 use super::{Content, Figure, Numbers, PassColumn, Text};
 use pictures::pictures;
-pub(crate) use pictures::{PictureRecord, png_source, svg_source};
+pub use pictures::{PictureRecord, png_source, svg_source};
 use serde::Serialize;
 use std::fmt::Write;
 use tinta::page::{Pictures, beginning};
@@ -18,7 +18,7 @@ use tinta_geometry::markup::escaped;
 
 /// A finished figure, for the page and for `figures.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct FigureRecord {
+pub struct FigureRecord {
     /// Its name for `--only`.
     pub id: &'static str,
     /// The text it is in.
@@ -45,7 +45,7 @@ pub(crate) struct FigureRecord {
 
 impl FigureRecord {
     /// A record of a figure without pictures yet.
-    pub(crate) fn new(figure: &Figure, command: String) -> Self {
+    pub fn new(figure: &Figure, command: String) -> Self {
         let Figure { id, text, number, title, caption, .. } = *figure;
         Self {
             id,
@@ -65,7 +65,7 @@ impl FigureRecord {
 
 /// The drawings and measurements.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PageContent<'a> {
+pub struct PageContent<'a> {
     /// The figures.
     pub figures: &'a [FigureRecord],
     /// Section 5's numbers, if they were measured.
@@ -73,7 +73,7 @@ pub(crate) struct PageContent<'a> {
 }
 
 /// The page.
-pub(crate) fn page(shown: PageContent<'_>, gl: &str, size: Size) -> String {
+pub fn page(shown: PageContent<'_>, gl: &str, size: Size) -> String {
     let mut out = String::new();
     // Writing to a String cannot fail.
     let _ = write(&mut out, shown, gl, size);

@@ -97,7 +97,7 @@ fn draw(
 }
 
 /// How many tones, in words.
-pub(crate) fn title(tones: u8) -> &'static str {
+pub fn title(tones: u8) -> &'static str {
     ["no tones", "one tone", "two tones", "three tones"][usize::from(tones.min(3))]
 }
 

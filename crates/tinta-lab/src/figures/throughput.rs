@@ -11,7 +11,7 @@ use tinta::styles::{Border, Cartoon, Filter, Show, Style};
 
 /// A shader of the article.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Shader {
+pub struct Shader {
     /// Its task.
     pub name: &'static str,
     /// The article's number, million pixels a second, if it prints one.
@@ -26,7 +26,7 @@ pub(crate) struct Shader {
 pub(super) const COMPARED_FACTOR: f32 = 0.25;
 
 /// The article's four shaders, then the two filters it compares.
-pub(crate) const SHADERS: [Shader; 6] = [
+pub const SHADERS: [Shader; 6] = [
     Shader { name: "map", article_mpixels: Some(400.0), is_two_pass: false, pass: "map", filter: None },
     Shader { name: "tones", article_mpixels: Some(36.36), is_two_pass: false, pass: "tones", filter: None },
     Shader { name: "border", article_mpixels: Some(28.57), is_two_pass: false, pass: "border", filter: None },

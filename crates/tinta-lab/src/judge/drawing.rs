@@ -25,7 +25,7 @@ use tinta_geometry::files;
 /// # Errors
 ///
 /// [`Error::File`] when it is missing, unreadable, damaged or too large, and for a picture of another size than this.
-pub(crate) fn read(path: &Path, size: Option<Size>) -> Result<Picture> {
+pub fn read(path: &Path, size: Option<Size>) -> Result<Picture> {
     let bytes = files::read_within(path, None, DRAWING_BYTES)
         .map_err(|failure| failure.into_error(FileKind::Picture, path, "a drawing"))?;
     of_bytes(&bytes, &path.to_string_lossy(), size)

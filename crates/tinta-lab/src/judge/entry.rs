@@ -19,7 +19,7 @@ pub struct Entry {
 
 impl Entry {
     /// The row of its judgement.
-    pub(crate) fn row(&self, scene: &Scene, judgement: &Judgement) -> Row {
+    pub fn row(&self, scene: &Scene, judgement: &Judgement) -> Row {
         let Size { width, height } = scene.size;
         let frames_ms = if self.seconds > 0.0 { vec![self.seconds * 1e3] } else { Vec::new() };
         let times = FrameTimes { frames_ms, ..FrameTimes::default() };

@@ -11,7 +11,7 @@ use tinta::settings::Value;
 use tinta::styles::StyleName;
 
 /// The options of `tinta render` for the silhouettes that a rule finds, with options of the scene.
-pub(crate) fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> String {
+pub fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> String {
     format!("--style lines --classes silhouette --silhouette {}{scene_options}", silhouette.text())
 }
 
@@ -21,7 +21,7 @@ pub(crate) fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> S
 /// # Errors
 ///
 /// As [`VisibleLines::of`].
-pub(crate) fn measure_lines(
+pub fn measure_lines(
     subject: &Subject,
     silhouette: SilhouetteRule,
     options: String,

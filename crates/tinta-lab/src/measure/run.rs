@@ -113,7 +113,7 @@ impl Subject {
     /// # Errors
     ///
     /// As [`Reference::of_surface`].
-    pub(crate) fn of_surface(model: &str, scene: Scene, surface: &ClosedForm, load_ms: f64) -> Result<Self> {
+    pub fn of_surface(model: &str, scene: Scene, surface: &ClosedForm, load_ms: f64) -> Result<Self> {
         let reference = Reference::of_surface(&scene, surface)?;
         Self::with_reference(model, scene, reference, load_ms)
     }
@@ -228,7 +228,7 @@ pub fn turns(frames: usize) -> usize {
 }
 
 /// How many frames are drawn in a turn: those that are timed, and one before them.
-pub(crate) fn frames_a_turn(frames: usize) -> usize {
+pub fn frames_a_turn(frames: usize) -> usize {
     1 + frames.min(FRAMES_A_TURN)
 }
 

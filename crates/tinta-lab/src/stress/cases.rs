@@ -13,8 +13,7 @@ mod topology;
 mod turntable;
 
 pub(super) use case::side_px;
-pub(crate) use case::{Case, Demand, Study};
-pub use case::{Content, Drawing, Group, Work};
+pub use case::{Case, Check, Content, Demand, Drawing, Group, Study, Work};
 
 /// All cases in the groups' order; `seed` decides the `mixes` random ones.
 pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {

@@ -58,7 +58,7 @@ impl StressSettings {
     /// # Errors
     ///
     /// [`Error::Setting`] when no case has such a name.
-    pub(crate) fn check(&self) -> Result<()> {
+    pub fn check(&self) -> Result<()> {
         self.cases().map(drop)
     }
 }

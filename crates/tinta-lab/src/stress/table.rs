@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 impl Summary {
     /// Every row: its required outcome, its actual one, and its figures.
-    pub(crate) fn table(&self) -> String {
+    pub fn table(&self) -> String {
         let failed = self.failures().count();
         let mut text = format!(
             "# Stiff and extreme cases\n\ntinta {}, {}: {} cases, {} rows, {failed} not as they must be.\n\n{}\

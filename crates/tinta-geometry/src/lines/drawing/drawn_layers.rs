@@ -163,13 +163,13 @@ pub(in crate::lines) fn page(lines: &VisibleLines, areas: Option<&Areas>, settin
 
 impl DrawnLayer {
     /// Its name in files, unique in a drawing: visibility, class, and the number of its style.
-    pub fn id(&self) -> String {
+    pub(crate) fn id(&self) -> String {
         let of_part = if self.look == 0 { String::new() } else { format!("-{}", self.look) };
         self.layer.words().join("-") + &of_part
     }
 
     /// Its label in programs that show layers: visibility, class, and the patterns of its parts.
-    pub fn label(&self) -> String {
+    pub(crate) fn label(&self) -> String {
         let between = if self.part.is_empty() { "" } else { " " };
         format!("{}{between}{}", self.layer.words().join(" "), self.part)
     }

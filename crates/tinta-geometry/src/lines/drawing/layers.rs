@@ -37,7 +37,7 @@ impl Layer {
 
     /// All layers from lowest to highest: strokes of tones at the bottom, then hidden lines, the first class at the top, because
     /// an edge of several classes belongs to the first.
-    pub fn upwards() -> impl Iterator<Item = Self> {
+    pub(crate) fn upwards() -> impl Iterator<Item = Self> {
         let classes = || Class::ALL.into_iter().rev().map(|(_, class)| class);
         let hatches = (0..HATCHED_TONES).rev().map(Self::Hatch);
         hatches.chain(classes().map(Self::Hidden)).chain(classes().map(Self::Visible)).chain([Self::Outline])
@@ -175,12 +175,12 @@ impl<T: Copy> OfLayers<T> {
     }
 
     /// Returns a layer's value.
-    pub fn of(&self, layer: Layer) -> Option<T> {
+    pub(crate) fn of(&self, layer: Layer) -> Option<T> {
         layer.names().into_iter().flatten().find_map(|name| self.0[name.index()])
     }
 
     /// Whether the outline has a value and must therefore be found.
-    pub fn tells_outline(&self) -> bool {
+    pub(crate) fn tells_outline(&self) -> bool {
         self.0[Name::Outline.index()].is_some()
     }
 

@@ -12,7 +12,7 @@ use tinta_geometry::markup::escaped;
 
 /// A file of a figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct PictureRecord {
+pub struct PictureRecord {
     /// Its file name, beside the page.
     pub file: String,
     /// Its label among its neighbours.
@@ -35,13 +35,13 @@ pub(crate) struct PictureRecord {
 const MOST_BYTES: usize = 80_000;
 
 /// A picture as an address that holds it.
-pub(crate) fn png_source(picture: &Picture) -> String {
+pub fn png_source(picture: &Picture) -> String {
     let bytes = picture.small_png(MOST_BYTES).unwrap_or_default();
     format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
 }
 
 /// A plot as an address that holds it.
-pub(crate) fn svg_source(text: &str) -> String {
+pub fn svg_source(text: &str) -> String {
     format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(text))
 }
 

@@ -27,7 +27,7 @@ impl Default for FormSettings {
 
 impl FormSettings {
     /// The settings, for tables of structs that contain form lines.
-    pub fn settings() -> Vec<Setting<Self>> {
+    pub(crate) fn settings() -> Vec<Setting<Self>> {
         let settings = vec![
             Setting::field(
                 "form-lines",
