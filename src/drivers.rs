@@ -19,7 +19,7 @@ mod known;
 
 use crate::error::Result;
 use crate::gl::context::{Context, each};
-pub(crate) use crate::gl::probe::Probe;
+pub use crate::gl::probe::Probe;
 use crate::gl::{Backend, ContextInfo};
 use crate::mesh::{LoadOptions, load};
 use crate::picture::Picture;
@@ -27,7 +27,7 @@ use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Style, StyleName};
 pub(crate) use known::KNOWN;
-pub(crate) use known::KnownFault;
+pub use known::KnownFault;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ const REFERENCES: [(StyleName, &[u8]); 10] = [
 
 /// One backend, and its driver's drawings.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct DriverCheck {
+pub struct DriverCheck {
     /// The library, and the device if there are several.
     pub device: String,
     /// The check's findings, if a context opened.
@@ -69,7 +69,7 @@ pub(crate) struct DriverCheck {
 
 /// The pictures and answers of a context.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct DriverFindings {
+pub struct DriverFindings {
     /// The context's own description.
     pub context: ContextInfo,
     /// Its picture of each style, beside the reference.
@@ -84,7 +84,7 @@ pub(crate) struct DriverFindings {
 
 /// A style's picture beside the reference.
 #[derive(Debug, Clone, Default, Serialize)]
-pub(crate) struct StyleCheck {
+pub struct StyleCheck {
     /// The style's name.
     pub style: &'static str,
     /// Pixels that are not the reference's, byte for byte; `None` where the style could not be drawn.
@@ -101,7 +101,7 @@ pub(crate) struct StyleCheck {
 
 impl DriverFindings {
     /// Whether every style and every answer is as it should be.
-    pub(crate) fn is_good(&self) -> bool {
+    pub fn is_good(&self) -> bool {
         self.not_probed.is_none()
             && self.probes.iter().all(|probe| probe.passed)
             && self.styles.iter().all(|drawn| drawn.passed)
@@ -109,7 +109,7 @@ impl DriverFindings {
 }
 
 /// Checks every way of this backend, one after the other.
-pub(crate) fn check(backend: Backend) -> Vec<DriverCheck> {
+pub fn check(backend: Backend) -> Vec<DriverCheck> {
     let found = |mut renderer: Renderer| {
         let context = renderer.context().clone();
         let styles = REFERENCES.map(|(style, reference)| StyleCheck::of(&mut renderer, style, reference)).to_vec();

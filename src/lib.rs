@@ -142,7 +142,8 @@ pub mod renderer;
 #[doc(hidden)]
 pub mod pixel;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
-mod drivers;
+#[doc(hidden)]
+pub mod drivers;
 #[doc(hidden)]
 pub mod orbit;
 #[doc(hidden)]

@@ -174,7 +174,7 @@ mod tests {
             ("--margin: give a length", "--page margin: give a length"),
             ("--tone-light has no effect on lines", "--light tone-light has no effect on lines"),
             ("--light-1 and --light-2: they are equal", "--light light-1 and --light light-2: they are equal"),
-            ("leave out --transparent, or --tones 2", "leave out --background transparent, or --tones 2"),
+            ("leave out --lasting-creases, or --tones 2", "leave out --crease-angle lasting-creases, or --tones 2"),
             ("a -- b --no-such", "a -- b --no-such"),
             ("/a--near/b --near.obj: gone", "/a--near/b --near.obj: gone"),
         ] {

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// A fault of a driver.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct KnownFault {
+pub struct KnownFault {
     /// In a few words.
     pub name: &'static str,
     /// The first version it was seen in.

@@ -24,7 +24,7 @@ const LINE_SHARE: [f64; 2] = [0.8, 1.25];
 
 /// A test of a driver, and its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Probe {
+pub struct Probe {
     /// The probed feature.
     pub name: &'static str,
     /// Whether the driver passed.

@@ -81,7 +81,7 @@ impl Plan {
     /// # Errors
     ///
     /// The first [`Flaw`] in the order of the steps.
-    pub(crate) fn check(&self, scene: &Scene) -> Result<(), Flaw> {
+    pub fn check(&self, scene: &Scene) -> Result<(), Flaw> {
         self.check_as_a_whole()?;
         let surface = scene.size.times(self.supersample);
         let mut written = WrittenTargets::default();

@@ -275,11 +275,11 @@ fn a_listing_that_the_settings_do_not_run_is_named() {
     assert!(unused.starts_with("tinta: no pass of this drawing runs your evangelista/border.frag; "), "{unused}");
 }
 
-/// A folder with this text in place of `phong.frag`.
-fn own_phong(text: &str) -> (Folder, String) {
+/// A folder with this text in place of a style's fragment shader.
+fn own_shader(style: &str, text: &str) -> (Folder, String) {
     let folder = Folder::new();
-    std::fs::create_dir_all(folder.path("own/phong")).unwrap();
-    std::fs::write(folder.path("own/phong/phong.frag"), text).unwrap();
+    std::fs::create_dir_all(folder.path(&format!("own/{style}"))).unwrap();
+    std::fs::write(folder.path(&format!("own/{style}/{style}.frag")), text).unwrap();
     let own = folder.path("own");
     (folder, own)
 }
@@ -295,7 +295,8 @@ fn gls_own_lights_and_materials_are_explained_as_the_driver_has_them() {
         "vec4(0.5 + 0.25 * gl_LightSource[0].spotDirection, 0.1 + gl_FrontMaterial.shininess)",
     ];
     for member in members {
-        let (_folder, own) = own_phong(&format!("#version 120\nvoid main() {{ gl_FragColor = {member}; }}\n"));
+        let (_folder, own) =
+            own_shader("phong", &format!("#version 120\nvoid main() {{ gl_FragColor = {member}; }}\n"));
         let options = ["--size", "64", "--style", "phong", "--glsl", &own, "--json"];
         let json = answer(&[&["why", "builtin:bust", "32,32"], &options[..]].concat());
         let difference = json["steps"].as_array().unwrap().last().unwrap()["difference"].as_f64().unwrap();
@@ -305,15 +306,16 @@ fn gls_own_lights_and_materials_are_explained_as_the_driver_has_them() {
 
 #[test]
 fn uniforms_that_nothing_sets_are_named_once() {
-    let text = "#version 120\nuniform vec3 WarmColor;\nuniform float DiffuseWarm, ambient;\nuniform sampler2D Noise;\n\
-                void main() { gl_FragColor = vec4(WarmColor * DiffuseWarm + ambient, texture2D(Noise, vec2(0.5)).r); }\n";
-    let (folder, own) = own_phong(text);
+    let text = "#version 120\nuniform vec3 WarmColor;\nuniform float DiffuseWarm, threshold;\nuniform sampler2D Noise;\n\
+                void main() { gl_FragColor = vec4(WarmColor * DiffuseWarm + threshold, texture2D(Noise, vec2(0.5)).r); }\n";
+    let (folder, own) = own_shader("dietrich", text);
     let picture = folder.path("a.png");
-    let common = ["--size", "32", "--style", "phong", "--glsl", &own];
+    let common = ["--size", "32", "--style", "dietrich", "--glsl", &own];
     for line in [&["render", "builtin:bust", "-o", &picture][..], &["why", "builtin:bust", "16,16"]] {
         let output = tinta(&[line, &common].concat());
         let said = String::from_utf8(output.stderr).unwrap();
-        let expected = "tinta: nothing sets DiffuseWarm, Noise, WarmColor of your phong/phong.frag: numbers are 0";
+        let expected =
+            "tinta: nothing sets DiffuseWarm, Noise, WarmColor of your dietrich/dietrich.frag: numbers are 0";
         assert_eq!(said.matches("nothing sets").count(), 1, "{said}");
         assert!(said.contains(expected), "{said}");
     }

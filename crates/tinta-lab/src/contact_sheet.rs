@@ -17,7 +17,7 @@ use tinta::scene::Size;
 
 /// A picture with its title.
 #[derive(Debug, Clone)]
-pub(crate) struct Panel {
+pub struct Panel {
     /// Above it, bold.
     pub title: String,
     /// Below the title, plain; may be empty.
@@ -28,7 +28,7 @@ pub(crate) struct Panel {
 
 /// A line below the panels.
 #[derive(Debug, Clone)]
-pub(crate) struct Caption {
+pub struct Caption {
     /// A square of this colour before the text.
     pub swatch: Option<[u8; 3]>,
     /// The text; letters missing in the font become a question mark.
@@ -39,7 +39,7 @@ pub(crate) struct Caption {
 const MARGIN: u32 = 16;
 
 /// Puts panels next to each other, each as wide as its picture or its titles, and captions below.
-pub(crate) fn sheet(panels: &[Panel], captions: &[Caption]) -> Picture {
+pub fn sheet(panels: &[Panel], captions: &[Caption]) -> Picture {
     let font = Font::for_width(panels.iter().map(|panel| panel.picture.size.width).max().unwrap_or_default());
     let column = |panel: &Panel| {
         let titles = font.title.width(&panel.title).max(font.text.width(&panel.subtitle));

@@ -19,7 +19,7 @@ pub mod compare;
 #[cfg(feature = "cli")]
 mod canvas;
 #[cfg(feature = "cli")]
-pub(crate) mod contact_sheet;
+pub mod contact_sheet;
 pub mod measure;
 pub mod judge;
 pub mod report;

@@ -133,7 +133,7 @@ impl ViewerState {
     }
 
     /// The style a side shows.
-    pub(crate) fn style(&self, side: Side) -> &Style {
+    pub fn style(&self, side: Side) -> &Style {
         &self.requests[side as usize].style
     }
 
