@@ -42,7 +42,7 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
     // From memory no file is read at all.
     let bytes = file.with_buffer(Some(&absolute));
     let message = read_bytes(&bytes, "m.gltf", &[], &LoadOptions { allow_external: true, ..LoadOptions::default() });
-    assert!(message.unwrap_err().to_string().contains("which is not read; export it as GLB"));
+    assert!(message.unwrap_err().to_string().contains("which is not read; give both files or a GLB"));
 }
 
 #[test]

@@ -185,7 +185,7 @@ function open(asked) {
     shown = { asked: { ...asked, key: `${asked.name} ${performance.now()}` }, read };
     state.model = asked.bytes ? "" : asked.name;
     at("model").value = state.model;
-    say([`${about.name}: ${about.triangles} triangles.`, ...about.remarks].join(" "));
+    say([`${about.name}: ${about.triangles} ${about.triangles === 1 ? "triangle" : "triangles"}.`, ...about.remarks].join(" "));
     at("exact").hidden = true;
     draw();
     lecture.refresh();

@@ -63,7 +63,7 @@ impl<'a> Buffers<'a> {
     /// Reads a file of the model's folder.
     fn read(&mut self, name: &str, folder: &Folder<'a>) -> Result<usize, String> {
         if !folder.is_some() {
-            return Err(format!("its data is in {}, which is not read; export it as GLB", shown(name)));
+            return Err(format!("its data is in {}, which is not read; give both files or a GLB", shown(name)));
         }
         // Some programs write their own system's slashes.
         let slashes = name.replace('\\', "/");
