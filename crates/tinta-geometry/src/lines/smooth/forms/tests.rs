@@ -229,7 +229,7 @@ fn hostile_meshes_give_lines_with_finite_ends_or_none() {
     let triangles: Vec<[u32; 3]> =
         (0..58).map(|k| [k, k + 1, k + 2]).chain((0..50).map(|k| [k, k + 9, k + 5])).collect();
     let soup = Mesh::of_triangles("soup", points, &triangles, &LoadOptions::default()).unwrap();
-    let all = FormSettings { strength: 0.0, smoothing: 2.0, ..FormSettings::default() };
+    let all = FormSettings { strength: 0.0, smoothing: 2.0 };
     for class in [Class::Suggestive, Class::Ridge, Class::Valley] {
         for eye in [Eye::Point(soup.positions[3]), Eye::Direction(DVec3::Z), Eye::Point(DVec3::splat(1e9))] {
             let found = traced(&soup, class, eye, &all);
