@@ -21,7 +21,7 @@ use tinta::{Camera, Error, LineSettings, Mesh, Picture, Result, Scene, SceneSett
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
-    examples: &["tinta judge cow.png --model cow.obj             judge any program's drawing"],
+    examples: &["tinta judge a.png --model cow.obj --view 30,15  judge any drawing of this view"],
     offers: |option| if option == "ink" { vec!["dark", "light", "alpha"] } else { Vec::new() },
     ..Command::new("judge", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.words, call.session)
