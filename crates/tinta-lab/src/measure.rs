@@ -38,7 +38,6 @@ pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 pub(crate) use reference::samples_of;
 pub use reference::{Reference, Sample};
 pub use row::{Against, LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
-pub use run::frames_a_turn;
 pub(crate) use run::shading_of;
-pub use run::{MeasureSettings, MeasureStep, MeasuredStyle, Measurement, Subject, measure, turns};
+pub use run::{MeasureSettings, MeasureStep, MeasuredStyle, Measurement, Subject, frames_a_turn, measure, turns};
 pub use tones::ReferenceLight;
