@@ -14,22 +14,21 @@ const PHONG: &str = "glsl/phong/phong.frag has it; --glsl takes yours";
 const STRENGTH: &str = "--form-lines has the strength of form lines, in multiples of the usual";
 
 /// Options of earlier versions, and what took their place.
-const GONE: [(&str, &str); 16] = [
+const GONE: [(&str, &str); 18] = [
     ("ambient", PHONG),
     ("apparent-ridge-threshold", "apparent ridges are gone; --classes ridge,valley draws ridges in any view"),
+    ("clip", "--near and --far cut the view"),
     ("contrast-exponent", "--contrast has the exponent"),
     ("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans"),
     ("gap-per-slope", "glsl/improved/plane-ink.frag has it; --glsl takes yours"),
     ("provenance", "-o drawing.json has each line's class, object, edge and angle"),
     ("remove-specks", "--quality best removes specks, and exact lines have none"),
     ("ridge-threshold", STRENGTH),
+    ("shading", PHONG),
     ("shininess", PHONG),
     ("specular", PHONG),
     ("suggestive-threshold", STRENGTH),
-    (
-        "surface-crease-angle",
-        "the smooth surface breaks at 66.4 degrees; --form-lines curvature-smoothing leaves out small edges",
-    ),
+    ("surface-crease-angle", "form lines end at creases above 66.4 degrees"),
     ("transparent", "--background transparent leaves the background out"),
     ("valley-depth", CONTOURS),
     ("valley-radius", CONTOURS),
