@@ -36,8 +36,6 @@ pub use emptiness::empty_remark;
 pub use format::WantedLines;
 #[cfg(feature = "cli")]
 pub(crate) use format::{endings_of_lines, is_drawn_into};
-#[cfg(feature = "cli")]
-pub(crate) use gone::gone;
 pub use layers::{OptionLayer, ignored_remark, layers};
 #[cfg(feature = "cli")]
 pub(crate) use layers::{is_of_camera, unknown};

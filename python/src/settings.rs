@@ -156,12 +156,14 @@ pub(crate) fn check(function: &str, given: &Bound<'_, PyDict>) -> PyResult<()> {
 
 /// The error about an unknown setting of a function.
 fn unknown(py: Python<'_>, function: &str, key: &str) -> String {
+    if let Some(problem) = Request::gone(&key.replace('_', "-")) {
+        return in_python(&format!("{key}: {problem}"));
+    }
     let names = argument_names(py, function).unwrap_or_default();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    match nearest(key, &names) {
-        Some(meant) => no_option(function, key, Some(meant)),
-        None => format!("{}; see help(tinta_npr.{function})", no_option(function, key, None)),
-    }
+    let meant = nearest(key, &names);
+    let see = if meant.is_none() { format!("; see help(tinta_npr.{function})") } else { String::new() };
+    no_option(function, key, meant) + &see
 }
 
 /// A function's arguments, settings among them, by the names in its signature.

@@ -198,12 +198,13 @@ impl Redrawing<'_> {
         let style = recipe.style.parse().ok().map(OptionLayer::Style);
         let layers: Vec<OptionLayer> =
             style.into_iter().chain([OptionLayer::Given(recipe.options.clone()), OptionLayer::Given(given)]).collect();
-        let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
+        let of_recipe = |error| match error {
             Error::Setting { .. } | Error::Settings { .. } => {
                 refuse(format!("its recipe has an option that is not understood ({error}); this may be an older tinta"))
             }
             error => error,
-        })?;
+        };
+        let (request, _) = Request::from_layers(&layers).map_err(of_recipe)?;
         let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
         let mut request = request.with_models(models.to_vec());
         request.backend = backend;
@@ -217,7 +218,7 @@ impl Redrawing<'_> {
                 request.backend = Backend::Auto;
                 draw(&request)
             }
-            result => result,
+            result => result.map_err(of_recipe),
         }
     }
 

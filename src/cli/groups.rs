@@ -2,7 +2,7 @@
 //! records know the settings alone.
 
 use clap::{Arg, ArgAction};
-use tinta::choice::meant_or;
+use tinta::choice::{meant_or, nearest};
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, Table, with_mentions};
 
@@ -73,10 +73,21 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
             .allow_hyphen_values(true)
     }
 
+    fn names(&self) -> Vec<&'static str> {
+        self.inside.iter().map(|setting| setting.name).collect()
+    }
+
     /// How the settings inside it are given.
     fn holding(&self) -> String {
-        let names: Vec<&str> = self.inside.iter().map(|setting| setting.name).collect();
-        format!("write NAME=VALUE with one of {}", names.join(", "))
+        format!("write NAME=VALUE with one of {}", self.names().join(", "))
+    }
+
+    /// What the first word of a wrong value that stands for a setting meant.
+    fn meant(&self, value: &str) -> Option<String> {
+        let mut words = value.split(',').filter_map(|word| Some(word.split_once('=')?.0));
+        words.find_map(|word| {
+            Request::gone(word).or_else(|| Some(format!("did you mean {}?", nearest(word, &self.names())?)))
+        })
     }
 
     /// Checks each value alone.
@@ -89,7 +100,7 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
                     true => format!("{problem}, or {}", self.holding()),
                     false => format!("{name}: {problem}"),
                 };
-                table.check(name, &value).map_err(told)
+                table.check(name, &value).map_err(|problem| self.meant(&value).unwrap_or_else(|| told(problem)))
             }
             _ => Ok(()),
         })
@@ -107,10 +118,7 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
                 (Some(setting), None, ..) => given.push((setting.name, OptionValue::Switch(true))),
                 (None, _, Some((_, OptionValue::Text(value))), _) => *value += &format!(",{word}"),
                 (None, _, None, Some(plain)) => given.push((plain.name, OptionValue::text(word))),
-                _ => {
-                    let names: Vec<&str> = self.inside.iter().map(|setting| setting.name).collect();
-                    return Err(meant_or(name, &names, &self.holding()));
-                }
+                _ => return Err(meant_or(name, &self.names(), &self.holding())),
             }
         }
         Ok(given)

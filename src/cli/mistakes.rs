@@ -5,7 +5,7 @@ use super::groups::inside_now;
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
 use crate::files::shown;
-use crate::request::{gone, is_drawn_into};
+use crate::request::{Request, is_drawn_into};
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
@@ -38,16 +38,17 @@ fn not_utf_8(word: &OsString) -> String {
 /// The first paragraph of a message on one line, which is not without end: a value may be as long as a file.
 fn first_paragraph(text: &str) -> String {
     let paragraph = text.split("\n\n").next().unwrap_or_default();
-    let words: Vec<&str> = paragraph.split_whitespace().collect();
-    let sentence = words.join(" ");
+    let sentence = paragraph.split_whitespace().collect::<Vec<_>>().join(" ");
     shortened(sentence.strip_prefix("error: ").unwrap_or(&sentence))
 }
 
+/// Its beginning and its end, which name the option and what is wrong, if it is long.
 fn shortened(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_SENTENCE) {
-        None => text.to_owned(),
-        Some((end, _)) => format!("{}…", &text[..end]),
-    }
+    let letters: Vec<char> = text.chars().collect();
+    let surplus = letters.len().saturating_sub(LONGEST_SENTENCE);
+    let (start, end) = letters.split_at(letters.len().min(LONGEST_SENTENCE / 2));
+    let omitted = if surplus > 0 { "…" } else { "" };
+    format!("{}{omitted}{}", String::from_iter(start), String::from_iter(&end[surplus..]))
 }
 
 /// A text that clap's error holds.
@@ -79,7 +80,11 @@ fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
         ));
     }
     let names: Vec<&str> = whole.get_subcommands().map(Command::get_name).collect();
-    let choice = meant_or(name, &names, &format!("choose one of {}", names.join(", ")));
+    let otherwise = match name {
+        "view" | "judge" => "cargo install --path crates/tinta-cli builds a program that has it".to_owned(),
+        _ => format!("choose one of {}", names.join(", ")),
+    };
+    let choice = meant_or(name, &names, &otherwise);
     Some(format!("there is no command {}; {choice}", shortened(name)))
 }
 
@@ -94,7 +99,8 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
         return Some(surplus(command, &shortened(word)));
     }
     let bare = name.trim_start_matches('-');
-    if let Some(problem) = gone(bare).map(|problem| format!("{name}: {problem}")).or_else(|| inside_now(bare)) {
+    if let Some(problem) = Request::gone(bare).map(|problem| format!("{name}: {problem}")).or_else(|| inside_now(bare))
+    {
         return Some(problem);
     }
     let command_name = match command.get_name() {
@@ -196,6 +202,16 @@ mod tests {
 
     fn said(line: &str) -> String {
         Program::default().check(line.split(' ').map(Into::into)).unwrap_err()
+    }
+
+    #[test]
+    fn a_long_value_leaves_the_option_and_the_advice_in_sight() {
+        let said = said(&format!("tinta render a.obj -o a.png --color {}", "a".repeat(3_000)));
+        assert!(
+            said.starts_with("invalid value 'aaa") && said.chars().count() <= super::LONGEST_SENTENCE + 20,
+            "{said}"
+        );
+        assert!(said.contains("…a") && said.contains("a' for '--color <COLOR>': "), "{said}");
     }
 
     #[test]

@@ -20,7 +20,7 @@ use tinta::mesh::{LoadedModel, load};
 use tinta::page::NOT_OF_BROWSERS;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, names_of, on_off};
-use tinta::{Error, LoadOptions, Result, SceneSettings, Style, StyleName, TextTarget};
+use tinta::{Error, FileKind, LoadOptions, Result, SceneSettings, Style, StyleName, TextTarget};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -187,11 +187,11 @@ fn files(model: &str, loaded: &LoadedModel) -> Result<Vec<(String, Vec<u8>)>> {
 
 /// The built page: the named one, or the one that came with the program.
 fn built(named: Option<&Path>) -> Result<String> {
+    const LARGEST_BYTES: u64 = 1 << 28;
     let read = |path: &Path| {
-        std::fs::read_to_string(path).map_err(|error| {
-            Error::model(path, format!("it cannot be read ({error}); name a page that scripts/web built"))
-                .because(&error)
-        })
+        let bytes = crate::files::read(path, LARGEST_BYTES)
+            .map_err(|failure| failure.into_error(FileKind::Model, path, "a page that scripts/web built"))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     };
     if let Some(path) = named {
         return read(path);

@@ -35,10 +35,9 @@ const GONE: [(&str, &str); 18] = [
     ("valley-share", CONTOURS),
 ];
 
-/// Why an option of an earlier version is unknown, and what took its place; `None` for any other name.
-pub(crate) fn gone(option: &str) -> Option<String> {
-    let (_, instead) = GONE.iter().find(|(gone, _)| *gone == option)?;
-    Some(format!("this option is gone; {instead}"))
+/// What took the place of an option of an earlier version; `None` for any other name.
+pub(super) fn gone(option: &str) -> Option<String> {
+    GONE.iter().find(|(gone, _)| *gone == option).map(|(_, instead)| format!("this option is gone; {instead}"))
 }
 
 /// The style of this name, as the option names it.

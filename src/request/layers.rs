@@ -191,6 +191,11 @@ impl Request {
         Ok((request, remarks))
     }
 
+    /// Why an option of an earlier version is unknown, and what took its place; `None` for any other name.
+    pub fn gone(option: &str) -> Option<String> {
+        gone(option)
+    }
+
     /// Refuses the options, other than a look's, that a style of passes has as vectors alone, for a picture.
     ///
     /// # Errors

@@ -235,8 +235,8 @@ impl Contents {
             let problem = "lines, faces and objects have no tones; leave it out, or choose --look print";
             return Err(Error::setting("hatch", problem));
         }
-        self.lines.as_ref().map_or(Ok(()), |lines| lines.parts.check(&self.drawing))?;
-        self.drawing.check()
+        self.drawing.check()?;
+        self.lines.as_ref().map_or(Ok(()), |lines| lines.parts.check(&self.drawing))
     }
 
     /// Whether these lines are asked for by their own name.

@@ -23,7 +23,7 @@ fn run(program: &Path, words: &str, folder: &Path) -> Output {
     for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
         command.env_remove(name);
     }
-    command.args(words.split(' ')).current_dir(folder).output().unwrap()
+    command.args(words.split(' ').map(|word| word.trim_matches('\''))).current_dir(folder).output().unwrap()
 }
 
 /// README's commands of tinta, without their explanations.

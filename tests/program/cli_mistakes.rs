@@ -29,12 +29,16 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 119] = [
+const MISTAKES: [(&str, &str); 123] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
     ("render dir/my-cow.v2.obj", "--output is missing; name the picture to write: -o my-cow.v2.png; see --help"),
     ("render triangle.obj out.png", "--output is missing; did you mean -o out.png?"),
+    (
+        "page triangle.obj -o triangle.html --from /dev/zero",
+        "/dev/zero: this is a pipe or a device, not a regular file; name a page that scripts/web built",
+    ),
     ("page triangle.obj", "--output is missing; name the page to write: -o triangle.html; see --help"),
     ("out.png", "out.png is no model; tinta again out.png -o FILE draws a picture of tinta's again; see --help"),
     (
@@ -133,6 +137,19 @@ const MISTAKES: [(&str, &str); 119] = [
     (
         "render triangle.obj -o out.png --normals flatt",
         "invalid value 'flatt' for '--normals <WHERE>': did you mean flat?",
+    ),
+    (
+        "render triangle.obj -o out.svg --part=*:line-width=-3",
+        "--part: line-width -3: a line's width is a number from 0.001 to 16384",
+    ),
+    (
+        "render triangle.obj -o out.pdf --page A4,margn=1cm",
+        "invalid value 'A4,margn=1cm' for '--page <PAPER>': did you mean margin?",
+    ),
+    (
+        "render triangle.obj -o out.svg --form-lines suggestive-threshold=1",
+        "invalid value 'suggestive-threshold=1' for '--form-lines <STRENGTH>': this option is gone; --form-lines has the strength of form lines, \
+         in multiples of the usual; see --help",
     ),
     (
         "render triangle.obj -o out.png --section x=0 --section section-hatch=nan",

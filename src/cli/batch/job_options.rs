@@ -6,7 +6,7 @@ use tinta::batch::{Job, OUTPUTS, place_in};
 use tinta::choice::nearest;
 use tinta::preset::Look;
 use tinta::recipe::option_word;
-use tinta::request::{Request, gone};
+use tinta::request::Request;
 use tinta::settings::{HasSettings, OptionValue, Options};
 use tinta::{Error, ParseError, Result};
 
@@ -53,7 +53,7 @@ impl JobOptions {
     pub(super) fn refuse_unknown(options: &Options, command: &str, is_known: impl Fn(&str) -> bool) -> Result<()> {
         let is_known = |name: &str| COMMON.contains(&name) || is_known(name);
         let Some(key) = options.keys().find(|key| !is_known(key)) else { return Ok(()) };
-        if let Some(problem) = gone(key) {
+        if let Some(problem) = Request::gone(key) {
             return Err(Error::setting(key, problem));
         }
         let names = Request::table().of(None).into_iter().map(|setting| setting.name).chain(COMMON);

@@ -79,7 +79,8 @@ fn middle_of_surface(mesh: &Mesh) -> DVec3 {
     sum / areas.max(f64::MIN_POSITIVE)
 }
 
-/// The corners of the convex hull, counterclockwise (Andrew's monotone chain); fewer than three of points on a line.
+/// The corners of the convex hull, counterclockwise (Andrew's monotone chain); two of points on a line or in one
+/// place.
 pub(crate) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup();
@@ -93,8 +94,8 @@ pub(crate) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
             }
             chain.push(*point);
         }
-        // The last one begins the other half.
-        chain.pop();
+        // The last one begins the other half, unless it is the only one.
+        chain.truncate(chain.len().saturating_sub(1).max(1));
         chain
     };
     let mut all = half(&mut points.iter());
@@ -182,10 +183,10 @@ mod tests {
     }
 
     #[test]
-    fn a_hull_has_the_outer_corners_and_a_line_has_none() {
+    fn a_hull_has_the_outer_corners_and_a_line_has_two() {
         let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [2.0, 2.0], [1.0, 1.0], [0.0, 2.0], [0.0, 0.0]];
         let hull_of = |points: &[[f64; 2]]| hull(points.iter().map(|point| DVec2::from_array(*point)).collect());
         assert_eq!(hull_of(&points), [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(DVec2::from_array));
-        assert!(hull_of(&points[..3]).len() < 3 && hull_of(&points[..1]).is_empty());
+        assert!(hull_of(&points[..3]).len() < 3 && hull_of(&points[..1]) == [DVec2::ZERO; 2]);
     }
 }

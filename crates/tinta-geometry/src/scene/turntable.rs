@@ -57,7 +57,7 @@ impl Scene {
         };
         let point_count: usize = self.objects.iter().map(|object| object.mesh.positions.len()).sum();
         let points: Vec<DVec2> = if point_count <= FITTED_POINTS {
-            let points = self.objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
+            let points = self.objects.iter().flat_map(|o| o.mesh.all_positions().map(|point| point + o.offset));
             points.map(outline).collect()
         } else {
             self.objects.iter().flat_map(Object::box_corners).map(outline).collect()
@@ -69,7 +69,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{LoadOptions, load};
+    use crate::mesh::{LoadOptions, load, read_as};
     use crate::scene::SceneSettings;
     use crate::tolerances::FRAME_FILL;
     use std::sync::Arc;
@@ -97,6 +97,25 @@ mod tests {
                 assert!(distances.iter().all(|distance| (distance / distances[0] - 1.0).abs() < 1e-12));
                 let widest = cameras.iter().map(|camera| reach(&scene, camera)).fold(0.0, f64::max);
                 assert!(widest < 1.0 && widest > FRAME_FILL - 0.1, "{model} parallel {parallel}: {widest}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_flat_or_has_no_faces_is_in_the_picture_too() {
+        let corners = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\n";
+        for elements in ["f 1 2 3 4", "l 1 2 3 4 1", "l 1 3", "p 1 2 3 4"] {
+            let text = format!("{corners}{elements}\n");
+            let mesh = read_as(text.as_bytes(), "flat.obj", &LoadOptions::default()).unwrap().mesh;
+            let mesh = Arc::new(mesh);
+            let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default()).unwrap();
+            let settings = CameraSettings::default();
+            for camera in scene.turntable(&settings, 24).unwrap() {
+                let clip_from_world = camera.clip_from_view(scene.size.aspect()) * camera.view_from_world();
+                let farthest =
+                    mesh.all_positions().map(|point| clip_from_world.project_point3(point).abs().max_element());
+                let farthest = farthest.fold(0.0, f64::max);
+                assert!(farthest < 1.0 && farthest > 0.5, "{elements}: {farthest}");
             }
         }
     }

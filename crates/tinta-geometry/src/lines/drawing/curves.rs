@@ -1,17 +1,17 @@
 //! Fits cubic Bézier curves to polylines within a given error.
 //!
 //! Input: a [`LinePath`] and the largest error in pixels. Output: [`Step`]s from its first point. The path is cut at
-//! its corners, which stay. Between two corners a smooth curve of cubics passes through the points (Bessel tangents),
-//! and kurbo reduces it to as few cubics as it can. The result is then compared with the polyline, in both
-//! directions. Where it is too far away, the stretch is halved and fitted again; two points give a straight line. The
-//! error bound therefore holds whatever the fit does, and straight lines stay straight.
+//! its corners, which stay. Between two corners a smooth curve of cubics passes through the points (Bessel tangents).
+//! From each point one cubic by kurbo follows it as far as it can. Each cubic is compared with the polyline, in both
+//! directions; one that is too far away ends earlier, and two points give a straight line. The error bound therefore
+//! holds whatever the fit does, and straight lines stay straight.
 
 use crate::lines::drawing::chain::LinePath;
 use crate::lines::drawing::simplify::simplified;
 use crate::tolerances::STRAIGHT_PX;
 use glam::DVec2;
 use kurbo::simplify::SimplifyBezPath;
-use kurbo::{BezPath, CubicBez, ParamCurve, PathSeg, Point, fit_to_bezpath_opt};
+use kurbo::{BezPath, CubicBez, ParamCurve, Point, fit_to_cubic};
 
 /// A step of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,11 +28,11 @@ pub(in crate::lines) const FIT_PX: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 /// Cosine of the least angle at a corner, 35 degrees; smaller turns become curves if these are close enough.
 const CORNER_COSINE: f64 = 0.819;
 
-/// Most points fitted at once.
-const MOST_POINTS: usize = 200;
+/// Most segments that one curve follows.
+const MOST_SEGMENTS: usize = 200;
 
-/// Samples of each curve that are compared with the polyline.
-const SAMPLES: usize = 24;
+/// Samples of each curve, for each segment that it follows, that are compared with the polyline.
+const SAMPLES: usize = 12;
 
 /// Part of the error reserved for rounding to three decimals and for omitted points on straight lines.
 const RESERVED_PX: f64 = 2.0 * STRAIGHT_PX;
@@ -99,53 +99,50 @@ fn tangents(points: &[DVec2], is_ring: bool) -> Vec<DVec2> {
     tangents.into_iter().map(DVec2::normalize_or_zero).collect()
 }
 
-/// Adds the steps from the first point to the last.
+/// Adds the steps of a stretch without corners, each as long as one curve stays close enough.
 fn fit(points: &[DVec2], tangents: &[DVec2], tolerance: f64, steps: &mut Vec<Step>) {
     let last = points.len() - 1;
-    if last == 1 {
-        steps.push(Step::Line(points[1]));
-        return;
-    }
-    if points.len() <= MOST_POINTS
-        && let Some(curves) = curves(points, tangents, tolerance)
-    {
-        steps.extend(curves.iter().map(|curve| Step::Curve([curve.p1, curve.p2, curve.p3].map(vector))));
-        return;
-    }
-    let middle = last / 2;
-    fit(&points[..=middle], &tangents[..=middle], tolerance, steps);
-    fit(&points[middle..], &tangents[middle..], tolerance, steps);
-}
-
-/// Cubics from the first point to the last, if they are close enough.
-fn curves(points: &[DVec2], tangents: &[DVec2], tolerance: f64) -> Option<Vec<CubicBez>> {
     let mut smooth = BezPath::new();
     smooth.move_to(point(points[0]));
-    for at in 1..points.len() {
+    for at in 1..=last {
         let third = points[at - 1].distance(points[at]) / 3.0;
         let controls = [points[at - 1] + tangents[at - 1] * third, points[at] - tangents[at] * third];
         smooth.curve_to(point(controls[0]), point(controls[1]), point(points[at]));
     }
-    let found = fit_to_bezpath_opt(&SimplifyBezPath::new(smooth), tolerance * ESTIMATED);
-    let mut curves: Vec<CubicBez> = Vec::new();
-    for segment in found.segments() {
-        match segment {
-            PathSeg::Cubic(cubic) => curves.push(cubic),
-            PathSeg::Line(_) | PathSeg::Quad(_) => return None,
+    let smooth = SimplifyBezPath::new(smooth);
+    let curve = |from: usize, to: usize| {
+        let range = from as f64 / last as f64..to as f64 / last as f64;
+        let (found, _) = fit_to_cubic(&smooth, range, tolerance * ESTIMATED).filter(|_| from + 1 < to)?;
+        // The exact ends, so that adjacent curves meet.
+        let curve = CubicBez { p0: point(points[from]), p3: point(points[to]), ..found };
+        is_near(&curve, &points[from..=to], tolerance).then_some(curve)
+    };
+    let mut from = 0;
+    while from < last {
+        // Of ends twice as far each the farthest that one curve reaches, then between it and the next.
+        let farthest = last.min(from + MOST_SEGMENTS);
+        let ends: Vec<usize> =
+            (1..).map(|power| from + (1 << power)).take_while(|to| *to < farthest).chain([farthest]).collect();
+        let reached = ends.iter().enumerate().rev().find_map(|(at, to)| Some((at, *to, curve(from, *to)?)));
+        let (mut good, mut best) = reached.map_or((from + 1, None), |(_, to, found)| (to, Some(found)));
+        let mut bad = reached.map_or(ends[0], |(at, ..)| ends.get(at + 1).copied().unwrap_or(good + 1));
+        while good + 1 < bad {
+            let to = usize::midpoint(good, bad);
+            match curve(from, to) {
+                Some(found) => (good, best) = (to, Some(found)),
+                None => bad = to,
+            }
         }
+        let step = |CubicBez { p1, p2, p3, .. }| Step::Curve([p1, p2, p3].map(vector));
+        steps.push(best.map_or(Step::Line(points[good]), step));
+        from = good;
     }
-    // Restore the exact ends, so that adjacent curves still meet.
-    curves.first_mut()?.p0 = point(points[0]);
-    curves.last_mut()?.p3 = point(points[points.len() - 1]);
-    let is_finite = |curve: &CubicBez| [curve.p0, curve.p1, curve.p2, curve.p3].iter().all(|point| point.is_finite());
-    (curves.iter().all(is_finite) && is_near(&curves, points, tolerance)).then_some(curves)
 }
 
-/// Whether curves and a polyline stay within the tolerance of each other.
-fn is_near(curves: &[CubicBez], points: &[DVec2], tolerance: f64) -> bool {
-    let at = |curve: &CubicBez, sample: usize| vector(curve.eval(sample as f64 / SAMPLES as f64));
-    let mut drawn: Vec<DVec2> = vec![points[0]];
-    drawn.extend(curves.iter().flat_map(|curve| (1..=SAMPLES).map(move |sample| at(curve, sample))));
+/// Whether a curve and a polyline stay within the tolerance of each other.
+fn is_near(curve: &CubicBez, points: &[DVec2], tolerance: f64) -> bool {
+    let samples = SAMPLES * (points.len() - 1);
+    let drawn: Vec<DVec2> = (0..=samples).map(|sample| vector(curve.eval(sample as f64 / samples as f64))).collect();
     all_near(&drawn, points, tolerance) && all_near(points, &drawn, tolerance)
 }
 
@@ -250,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_and_spirals_stay_within_the_error() {
+    fn noise_walks_and_spirals_stay_within_the_error() {
         let mut state = 1u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -263,7 +260,15 @@ mod tests {
             (0..400).map(|k| DVec2::from_angle(f64::from(k) * 0.1) * f64::from(k) * 0.5 + 256.0).collect();
         let coarse: Vec<DVec2> =
             (0..12).map(|k| DVec2::from_angle(f64::from(k) / 12.0 * TAU) * 200.0 + 256.0).collect();
+        let (mut at, mut angle) = (DVec2::ZERO, 0.0);
+        let mut step = |_| {
+            angle += random() * 0.6;
+            at += DVec2::from_angle(angle) * (0.5 + 0.5 * random());
+            at
+        };
+        let walk: Vec<DVec2> = (0..300).map(&mut step).collect();
         for error_px in [0.02, 0.1, 0.5, 2.0] {
+            assert_within(&walk, false, error_px);
             assert_within(&noisy, false, error_px);
             assert_within(&spiral, false, error_px);
             assert_within(&coarse, true, error_px);

@@ -108,7 +108,7 @@ impl FromStr for Length {
              its width on paper: 0.3%/0.35mm"
                 .to_owned()
         };
-        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| usage());
+        let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(usage);
         let text = text.trim();
         if let Some((screen, paper)) = text.split_once('/') {
             return match (screen.parse()?, paper.parse()?) {

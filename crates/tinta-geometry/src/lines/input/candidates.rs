@@ -42,7 +42,7 @@ impl Candidates {
         let has_contours = settings.has_smooth_contours();
         let contours = (has_contours || settings.counts_changes).then(|| {
             let is_cut = !faces.cut_by_near.is_empty();
-            Contours::with_cusps(scene, space, &faces.positions, is_cut, objects, settings.crease_angle)
+            Contours::new(scene, space, &faces.positions, is_cut, objects, settings.crease_angle)
         });
         let (mut features, mut counts) = input.edge_features(contours.as_ref().filter(|_| has_contours));
         counts.silhouette += contours.as_ref().filter(|_| has_contours).map_or(0, |contours| contours.pieces.len());

@@ -4,7 +4,7 @@
 //! `as=ghost`. Of several rules for one part, each setting is that of the last rule that has it.
 
 use crate::choice::meant_or;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::parts::style::{PartRole, PartStyle};
 use crate::mesh::Pattern;
@@ -54,7 +54,8 @@ impl PartRules {
     ///
     /// Those of [`DrawingSettings::check`].
     pub fn check(&self, drawing: &DrawingSettings) -> Result<()> {
-        self.0.iter().try_for_each(|rule| rule.style.drawing(drawing).check())
+        let named = |error: Error| Error::setting("part", error.to_string());
+        self.0.iter().try_for_each(|rule| rule.style.drawing(drawing).check().map_err(named))
     }
 }
 

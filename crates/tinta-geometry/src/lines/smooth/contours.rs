@@ -93,7 +93,7 @@ pub(in crate::lines) enum OnEdge {
 const CHUNK: usize = 8192;
 
 impl Contours {
-    /// Finds the segments, each with the bend of its own face. `positions` are those of all objects in eye space. The
+    /// Finds the segments and their cusps. `positions` are those of all objects in eye space. The
     /// near plane may cut faces open.
     pub(in crate::lines) fn new(
         scene: &Scene,
@@ -135,7 +135,7 @@ impl Contours {
             }
             all.surfaces.push(curved);
         }
-        all
+        all.linked(positions)
     }
 
     /// Whether a segment belongs to a closed shell and bends towards its inside, so it cannot be visible from

@@ -6,31 +6,20 @@
 //! of a linear n . v are right only on average: where the contour runs along the view, the sign may differ from face
 //! to face. A change that lasts for less than two edges is not a cusp.
 
-use crate::edges::{CreaseAngle, Shell};
-use crate::lines::eye::space::Space;
-use crate::lines::input::object_edges::ObjectEdges;
+use crate::edges::Shell;
 use crate::lines::smooth::contours::{ContourPiece, Contours, Link, ObjectSurface, between};
 use crate::mesh::NONE;
-use crate::scene::Scene;
 use glam::DVec3;
 
 /// How far along its contour a segment's mean reaches, in edges.
 pub(in crate::lines) const REACH: f64 = 2.0;
 
 impl Contours {
-    /// Finds contours and their cusps; see [`Contours::new`].
-    pub(in crate::lines) fn with_cusps(
-        scene: &Scene,
-        space: &Space,
-        positions: &[DVec3],
-        is_cut_by_near: bool,
-        objects: &[ObjectEdges<'_>],
-        crease_angle: CreaseAngle,
-    ) -> Self {
-        let mut all = Self::new(scene, space, positions, is_cut_by_near, objects, crease_angle);
-        all.links = links(&all.surfaces, &all.pieces);
-        settle(&all.surfaces, &mut all.pieces, positions, &mut all.links);
-        all
+    /// Links the segments, averages their bends and cuts them at their cusps. `positions` are those of all objects in eye space.
+    pub(super) fn linked(mut self, positions: &[DVec3]) -> Self {
+        self.links = links(&self.surfaces, &self.pieces);
+        settle(&self.surfaces, &mut self.pieces, positions, &mut self.links);
+        self
     }
 }
 

@@ -52,7 +52,7 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
     }
     let is_before = |position: &DVec3| -position.z < space.near;
     let is_cut_by_near = positions.iter().any(is_before) && !positions.iter().all(is_before);
-    let contours = Contours::with_cusps(scene, &space, &positions, is_cut_by_near, &objects, crease_angle);
+    let contours = Contours::new(scene, &space, &positions, is_cut_by_near, &objects, crease_angle);
     let mut found = Vec::with_capacity(objects.len());
     for (object, surface) in objects.iter().zip(&contours.surfaces) {
         let edges = object.edges.get();
