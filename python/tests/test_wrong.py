@@ -62,7 +62,7 @@ WRONG = [
     (lambda: tn.lines(V, F, background=(-0.5, 0, 1)), ValueError, r"background \(-0.5, 0, 1\): the numbers of a colour"),
     (lambda: tn.lines(V, F, line_width="1mm"), ValueError, r"add page=\"A4\", width_mm or dpi"),
     (lambda: tn.lines(V, F).project([[1, 2]]), ValueError, r"points: the shape is \(1, 2\); give \(N, 3\)"),
-    (lambda: tn.lines(V, F, transparent=True), ValueError, r"transparent: this option is gone; background=\"transparent\" leaves the background out"),
+    (lambda: tn.lines(V, F, transparent=True), ValueError, r"^transparent: this option is gone; background transparent leaves"),
     (lambda: tn.lines(V, F, style="ink"), ValueError, r"lines has no option style"),
     (lambda: tn.lines(V, F, look="sketch"), ValueError, r"look sketch: this look is of pictures"),
     (lambda: tn.lines(V, F, look="techncal"), ValueError, r"look techncal: did you mean technical\?"),
