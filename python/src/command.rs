@@ -1,4 +1,4 @@
-//! The program `tinta`, which the wheel brings along: every command but the window and `tinta judge`.
+//! The program `tinta`, which the wheel brings along: every command but `tinta view`.
 
 use pyo3::prelude::*;
 use std::ffi::OsString;

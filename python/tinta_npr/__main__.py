@@ -1,4 +1,4 @@
-"""The program `tinta`: `python -m tinta_npr render cow.obj -o cow.svg`. It has all commands but the window and `tinta judge`."""
+"""The program `tinta`: `python -m tinta_npr render cow.obj -o cow.svg`. It has all commands but `tinta view`."""
 
 import os
 import signal

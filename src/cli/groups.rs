@@ -82,7 +82,7 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
         format!("write NAME=VALUE with one of {}", self.names().join(", "))
     }
 
-    /// What the first word of a wrong value that stands for a setting meant.
+    /// What a wrong value meant by its first `NAME=` that is near the name of a setting inside, or of a gone option.
     fn meant(&self, value: &str) -> Option<String> {
         let mut words = value.split(',').filter_map(|word| Some(word.split_once('=')?.0));
         words.find_map(|word| {

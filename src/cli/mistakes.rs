@@ -81,7 +81,7 @@ fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
     }
     let names: Vec<&str> = whole.get_subcommands().map(Command::get_name).collect();
     let otherwise = match name {
-        "view" | "judge" => "cargo install --path crates/tinta-cli builds a program that has it".to_owned(),
+        "view" => "cargo install --path crates/tinta-cli builds a program that has it".to_owned(),
         _ => format!("choose one of {}", names.join(", ")),
     };
     let choice = meant_or(name, &names, &otherwise);

@@ -14,7 +14,7 @@ const PHONG: &str = "glsl/phong/phong.frag has it; --glsl takes yours";
 const STRENGTH: &str = "--form-lines has the strength of form lines, in multiples of the usual";
 
 /// Options of earlier versions, and what took their place.
-const GONE: [(&str, &str); 18] = [
+pub(super) const GONE: [(&str, &str); 18] = [
     ("ambient", PHONG),
     ("apparent-ridge-threshold", "apparent ridges are gone; --classes ridge,valley draws ridges in any view"),
     ("clip", "--near and --far cut the view"),
@@ -34,11 +34,6 @@ const GONE: [(&str, &str); 18] = [
     ("valley-radius", CONTOURS),
     ("valley-share", CONTOURS),
 ];
-
-/// What took the place of an option of an earlier version; `None` for any other name.
-pub(super) fn gone(option: &str) -> Option<String> {
-    GONE.iter().find(|(gone, _)| *gone == option).map(|(_, instead)| format!("this option is gone; {instead}"))
-}
 
 /// The style of this name, as the option names it.
 ///

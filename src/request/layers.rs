@@ -1,6 +1,6 @@
 //! Layers of options, each beating those below it, as one request.
 
-use super::gone::gone;
+use super::gone::GONE;
 use super::{EXACT_LINES, Request, Source};
 use crate::camera;
 use crate::choice::meant_or;
@@ -110,7 +110,7 @@ fn given(options: &Options) -> Options {
 /// The error for an unknown option.
 pub(crate) fn unknown(name: &str) -> Error {
     let names: Vec<&str> = Request::table().of(None).into_iter().map(|setting| setting.name).collect();
-    if let Some(problem) = gone(name) {
+    if let Some(problem) = Request::gone(name) {
         return Error::setting(name, problem);
     }
     let choice = meant_or(name, &names, "keys are long names of tinta render --help");
@@ -193,7 +193,7 @@ impl Request {
 
     /// Why an option of an earlier version is unknown, and what took its place; `None` for any other name.
     pub fn gone(option: &str) -> Option<String> {
-        gone(option)
+        GONE.iter().find(|(gone, _)| *gone == option).map(|(_, instead)| format!("this option is gone; {instead}"))
     }
 
     /// Refuses the options, other than a look's, that a style of passes has as vectors alone, for a picture.

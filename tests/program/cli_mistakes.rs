@@ -29,16 +29,12 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 123] = [
+const MISTAKES: [(&str, &str); 122] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
     ("render dir/my-cow.v2.obj", "--output is missing; name the picture to write: -o my-cow.v2.png; see --help"),
     ("render triangle.obj out.png", "--output is missing; did you mean -o out.png?"),
-    (
-        "page triangle.obj -o triangle.html --from /dev/zero",
-        "/dev/zero: this is a pipe or a device, not a regular file; name a page that scripts/web built",
-    ),
     ("page triangle.obj", "--output is missing; name the page to write: -o triangle.html; see --help"),
     ("out.png", "out.png is no model; tinta again out.png -o FILE draws a picture of tinta's again; see --help"),
     (

@@ -107,5 +107,11 @@ fn what_cannot_be_a_page_is_refused_in_a_sentence() {
         &["page", "builtin:gear", "-o", &made, "--from", &folder.path("no.html")],
         &["no.html", "no such file"],
     );
+    if cfg!(unix) {
+        refused_in_one_line(
+            &["page", "builtin:gear", "-o", &made, "--from", "/dev/zero"],
+            &["/dev/zero", "a device", "scripts/web"],
+        );
+    }
     assert!(!std::path::Path::new(&made).exists(), "nothing was written");
 }

@@ -2,7 +2,8 @@
 //!
 //! Input: a [`LinePath`] and the largest error in pixels. Output: [`Step`]s from its first point. The path is cut at
 //! its corners, which stay. Between two corners a smooth curve of cubics passes through the points (Bessel tangents).
-//! From each point one cubic by kurbo follows it as far as it can. Each cubic is compared with the polyline, in both
+//! From each point one cubic by kurbo follows it as far as it can: kurbo's best fit of a whole path never ends for some
+//! noisy paths. Each cubic is compared with the polyline, in both
 //! directions; one that is too far away ends earlier, and two points give a straight line. The error bound therefore
 //! holds whatever the fit does, and straight lines stay straight.
 
